@@ -1,0 +1,1 @@
+//! Inlets and outlets through bidirectional buffers.

@@ -1,0 +1,1 @@
+//! The vaso binary: composition of all crates.

@@ -1,0 +1,2 @@
+//! The `vaso` binary.
+fn main() {}

@@ -1,0 +1,1 @@
+//! From a vessel surface to relaxed fluid and wall particles.

@@ -1,0 +1,1 @@
+//! Triangle surfaces of vessels: reading, repair, openings, signed distance.

@@ -1,0 +1,1 @@
+//! VTKHDF series, tables, summaries and caches on disk.

@@ -1,0 +1,1 @@
+//! Smoothing kernels, neighbour rows and the pair loops.

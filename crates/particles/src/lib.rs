@@ -1,0 +1,1 @@
+//! Columns of particle data and the contracts between physics crates.

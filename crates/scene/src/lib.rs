@@ -1,0 +1,1 @@
+//! case.toml to a validated scene in SI units.
