@@ -1,1 +1,7 @@
-//! Smoothing kernels, neighbour rows and the pair loops.
+#![doc = include_str!("../README.md")]
+
+pub mod grid;
+pub mod wendland;
+
+pub use grid::CellGrid;
+pub use wendland::Wendland;
