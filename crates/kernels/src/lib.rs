@@ -1,7 +1,23 @@
 #![doc = include_str!("../README.md")]
+// The one crate that talks to vector units; every block says what makes it sound.
+#![allow(unsafe_code)]
 
+pub mod frame;
 pub mod grid;
+pub mod isa;
+pub mod lanes;
+pub mod pairs;
+pub mod records;
+pub mod rows;
+pub mod sym3;
 pub mod wendland;
 
+pub use frame::Frame;
 pub use grid::CellGrid;
+pub use isa::Isa;
+pub use lanes::{Lanes, Real};
+pub use pairs::{Gather, Own, Pair, PairLaw, PairStore, Store, Stored, sweep};
+pub use records::Records;
+pub use rows::{CHUNK, RowChunk, Rows, SearchSet};
+pub use sym3::Sym3;
 pub use wendland::Wendland;

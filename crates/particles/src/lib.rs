@@ -1,1 +1,9 @@
-//! Columns of particle data and the contracts between physics crates.
+#![doc = include_str!("../README.md")]
+
+pub mod column;
+pub mod visit;
+pub mod wall;
+
+pub use column::{Column, ScalarColumn, VectorColumn};
+pub use visit::{Columns, NonFinite, Visitor};
+pub use wall::{WallDistance, WallView};
