@@ -1,0 +1,58 @@
+//! The one table of field names: what the physics writes, what ParaView lists, what the report looks up.
+
+/// Names and units of the point data in `fluid.vtkhdf`, `wall.vtkhdf` and `particles.vtkhdf`.
+///
+/// Dimensionless fields have the unit `"1"`.
+pub const FIELDS: &[(&str, &str)] = &[
+    (VELOCITY, "m/s"),
+    (PRESSURE, "Pa"),
+    (DENSITY, "kg/m^3"),
+    (ID, "1"),
+    (DISPLACEMENT, "m"),
+    (VON_MISES, "Pa"),
+    (WSS, "Pa"),
+    (TAWSS, "Pa"),
+    (OSI, "1"),
+    (RRT, "1/Pa"),
+    (NORMAL, "1"),
+    (THICKNESS, "m"),
+    (VOLUME, "m^3"),
+    (DEPTH, "m"),
+    (BODY, "1"),
+];
+
+/// Fluid velocity [m/s].
+pub const VELOCITY: &str = "Velocity";
+/// Gauge pressure [Pa].
+pub const PRESSURE: &str = "Pressure";
+/// Density [kg/m^3].
+pub const DENSITY: &str = "Density";
+/// Identity of a particle for its whole life.
+pub const ID: &str = "Id";
+/// Displacement of the wall from its reference place [m].
+pub const DISPLACEMENT: &str = "Displacement";
+/// Von Mises stress of the wall [Pa].
+pub const VON_MISES: &str = "VonMises";
+/// Wall shear stress vector: the force of the fluid on the wall per area [Pa].
+pub const WSS: &str = "WSS";
+/// Time average of the magnitude of the wall shear stress over a cycle [Pa].
+pub const TAWSS: &str = "TAWSS";
+/// Oscillatory shear index, 0 to 0.5.
+pub const OSI: &str = "OSI";
+/// Relative residence time [1/Pa].
+pub const RRT: &str = "RRT";
+/// Unit normal of the wall.
+pub const NORMAL: &str = "Normal";
+/// Thickness of a shell [m].
+pub const THICKNESS: &str = "Thickness";
+/// Volume of a particle [m^3].
+pub const VOLUME: &str = "Volume";
+/// Distance of a wall particle outside the lumen surface [m].
+pub const DEPTH: &str = "Depth";
+/// Body of a particle where one file holds several: see [`crate::particles::BodyKind`].
+pub const BODY: &str = "Body";
+
+/// Unit of a field of the table; `None` for a name that is not in it.
+pub fn unit(field: &str) -> Option<&'static str> {
+    FIELDS.iter().find(|(name, _)| *name == field).map(|(_, unit)| *unit)
+}
