@@ -1,1 +1,18 @@
-//! Weakly compressible SPH blood flow.
+#![doc = include_str!("../README.md")]
+
+mod acoustic;
+pub mod cap;
+pub mod fluid;
+pub mod law;
+pub mod numbers;
+pub mod state;
+mod summation;
+pub mod transport;
+mod viscosity;
+pub mod wall;
+
+pub use cap::CapZone;
+pub use fluid::Fluid;
+pub use numbers::Numbers;
+pub use state::FluidState;
+pub use transport::Guarded;

@@ -59,8 +59,10 @@ pub enum Stored {
 pub trait PairLaw<R: Real, const K: usize>: Sync {
     /// Constants of the law in all lanes.
     type Constants<L: Lanes<Elem = R>>: Copy;
-    /// Whether a second record is gathered.
+    /// Whether a second record of the neighbour is gathered, and that of the particle itself read.
     const SECOND: bool = false;
+    /// Whether the second record of the particle itself is read.
+    const SECOND_OWN: bool = Self::SECOND;
     /// Use of the number stored per pair.
     const STORED: Stored = Stored::No;
 
@@ -127,8 +129,10 @@ pub struct Gather<'a, R> {
     pub own: &'a Records<R>,
     /// Records of the body the rows point at.
     pub other: &'a Records<R>,
-    /// Second records of both bodies; ignored unless the law asks for them.
-    pub second: Option<(&'a Records<R>, &'a Records<R>)>,
+    /// Second records of the own body; ignored unless the law asks for them.
+    pub own_second: Option<&'a Records<R>>,
+    /// Second records of the other body; ignored unless the law asks for them.
+    pub other_second: Option<&'a Records<R>>,
 }
 
 /// Sums `law` over the rows of `chunk`, whose first particle is `first`; one result a row.
@@ -148,7 +152,9 @@ pub fn sweep<R: Real, P: PairLaw<R, K>, const K: usize>(
     let largest = gather.other.len() * FIELDS;
     debug_assert!(chunk.at.iter().all(|&at| at as usize <= largest));
     assert!(chunk.at.first().is_none_or(|&at| at as usize <= largest), "rows of other records");
-    assert!(!P::SECOND || gather.second.is_some_and(|s| s.0.len() >= first + n && s.1.len() == gather.other.len()));
+    assert!(!P::SECOND_OWN || gather.own_second.is_some_and(|s| s.len() >= first + n), "own second records");
+    let second_fits = |s: &Records<R>| s.len() == gather.other.len();
+    assert!(!P::SECOND || gather.other_second.is_some_and(second_fits), "other second records");
     let (read, write) = match (P::STORED, store) {
         (Stored::No, Store::None) => (std::ptr::null(), std::ptr::null_mut()),
         (Stored::Read, Store::Read(s)) if s.len() == chunk.at.len() => (s.as_ptr(), std::ptr::null_mut()),
@@ -177,17 +183,15 @@ impl<R: Real, P: PairLaw<R, K>, const K: usize> LaneWork<R> for Sweep<'_, R, P, 
         let constants = self.law.constants::<L>();
         let unit = L::constant(self.gather.frame.unit());
         let (own_base, other_base) = (self.gather.own.base(), self.gather.other.base());
-        let (own_second, other_second) = match self.gather.second {
-            Some((own, other)) => (own.base(), other.base()),
-            None => (own_base, other_base),
-        };
+        let own_second = self.gather.own_second.map_or(own_base, Records::base);
+        let other_second = self.gather.other_second.map_or(other_base, Records::base);
         let tiny = L::constant(1e-24);
         for (k, sums) in self.sums.iter_mut().enumerate().take(self.chunk.len()) {
             let (begin, end) = (self.chunk.start[k] as usize, self.chunk.start[k + 1] as usize);
             let i = FIELDS * (self.first + k);
             // SAFETY: `sweep` has checked that the record exists.
             let record: [L; FIELDS] = std::array::from_fn(|f| L::splat(unsafe { *own_base.add(i + f) }));
-            let second: [L; FIELDS] = if P::SECOND {
+            let second: [L; FIELDS] = if P::SECOND_OWN {
                 // SAFETY: as above.
                 std::array::from_fn(|f| L::splat(unsafe { *own_second.add(i + f) }))
             } else {

@@ -73,6 +73,11 @@ impl RowChunk {
         self.len() == 0
     }
 
+    /// Whether row `k` has no neighbour.
+    pub fn is_row_empty(&self, k: usize) -> bool {
+        self.start[k] == self.start[k + 1]
+    }
+
     /// Whether no row has a neighbour.
     pub fn has_no_pairs(&self) -> bool {
         self.n_pairs == 0

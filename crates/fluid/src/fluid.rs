@@ -1,0 +1,260 @@
+//! The fluid body of a run: its state, its neighbours and what is frozen for an advective step.
+
+use crate::cap::CapZone;
+use crate::numbers::Numbers;
+use crate::state::FluidState;
+use crate::wall::WallSide;
+use glam::DVec3;
+use rayon::prelude::*;
+use vaso_kernels::{CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland};
+use vaso_particles::{WallDistance, WallView, visit};
+
+/// What a particle keeps for all acoustic steps of one advective step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frozen {
+    /// Correction matrix B.
+    pub correction: Sym3,
+    /// `sum V grad W` over the fluid \[1/m\].
+    pub fluid_gradient: DVec3,
+    /// `sum V grad W` over the wall \[1/m\].
+    pub wall_gradient: DVec3,
+    /// `sum V B_j grad W` over the fluid plus `B_i` times that over the wall: what the own pressure multiplies \[1/m\].
+    pub own_pressure: DVec3,
+    /// `sum V (B_i + B_j) grad W`, zero where the support is complete \[1/m\].
+    pub support: DVec3,
+    /// Acceleration that changes only with the advective step: viscosity \[m/s^2\].
+    pub acceleration: DVec3,
+    /// Unit normal of the nearest wall, towards the fluid.
+    pub wall_normal: DVec3,
+    /// `sum V |dW/dr|` over the wall \[1/m\].
+    pub wall_area: f64,
+    /// Inverse distance to the wall \[1/m\].
+    pub inverse_distance: f64,
+}
+
+impl Default for Frozen {
+    fn default() -> Self {
+        Self {
+            correction: Sym3::IDENTITY,
+            fluid_gradient: DVec3::ZERO,
+            wall_gradient: DVec3::ZERO,
+            own_pressure: DVec3::ZERO,
+            support: DVec3::ZERO,
+            acceleration: DVec3::ZERO,
+            wall_normal: DVec3::ZERO,
+            wall_area: 0.0,
+            inverse_distance: 0.0,
+        }
+    }
+}
+
+/// Weakly compressible fluid in a vessel.
+///
+/// One advective step is: [`Self::sort`], [`Self::search`], [`Self::summation`],
+/// [`Self::viscosity`], then acoustic steps ([`Self::begin_acoustic`], [`Self::wall_pressure`],
+/// [`Self::kick`], openings, [`Self::continuity`]), then [`Self::transport`] and [`Self::guard`].
+pub struct Fluid<R> {
+    /// Columns of the particles, in cell order after [`Self::sort`].
+    pub state: FluidState,
+    pub(crate) numbers: Numbers,
+    pub(crate) kernel: Wendland,
+    pub(crate) isa: Isa,
+    pub(crate) frame: Frame,
+    grid: CellGrid,
+    order: Vec<u32>,
+    set: SearchSet,
+    pub(crate) rows: Rows,
+    pub(crate) wall: WallSide<R>,
+    /// Records the momentum law reads.
+    pub(crate) current: Records<R>,
+    /// Records the continuity law reads: the same with the new velocity.
+    pub(crate) next: Records<R>,
+    /// Second records: correction matrices, then velocity gradients.
+    pub(crate) second: Records<R>,
+    pub(crate) offsets: PairStore<R>,
+    pub(crate) frozen: Vec<Frozen>,
+    /// Velocity gradients between the viscous and the offset sweep.
+    pub(crate) strain: Vec<[f64; 6]>,
+    /// One more than the place in the zone list, zero away from caps.
+    pub(crate) zone_of: Vec<u32>,
+    pub(crate) lattice_sum: f64,
+    wall_distance: Box<dyn WallDistance>,
+    reach: f64,
+}
+
+impl<R: Real> Fluid<R> {
+    /// Fluid `state` within `wall`, over `bounds` \[m\] that hold both for the whole run.
+    pub fn new(
+        state: FluidState,
+        wall: WallView,
+        wall_distance: Box<dyn WallDistance>,
+        bounds: (DVec3, DVec3),
+        numbers: Numbers,
+        isa: Isa,
+    ) -> Self {
+        let kernel = Wendland::new(numbers.smoothing_length);
+        let frame = Frame::new(bounds, kernel.support());
+        Self {
+            state,
+            numbers,
+            kernel,
+            isa,
+            frame,
+            grid: CellGrid::new(bounds, kernel.support()),
+            order: Vec::new(),
+            set: SearchSet::default(),
+            rows: Rows::default(),
+            wall: WallSide::new(wall, &frame, bounds),
+            current: Records::default(),
+            next: Records::default(),
+            second: Records::default(),
+            offsets: PairStore::default(),
+            frozen: Vec::new(),
+            strain: Vec::new(),
+            zone_of: Vec::new(),
+            lattice_sum: kernel.lattice_sum(numbers.spacing),
+            wall_distance,
+            reach: kernel.support(),
+        }
+    }
+
+    /// The numbers of the run.
+    pub fn numbers(&self) -> &Numbers {
+        &self.numbers
+    }
+
+    /// Neighbour pairs of the last search: among the fluid, of the fluid with the wall, of the wall with the fluid.
+    pub fn n_pairs(&self) -> [usize; 3] {
+        [self.rows.n_pairs(), self.wall.fluid_rows.n_pairs(), self.wall.wall_rows.n_pairs()]
+    }
+
+    /// Number of wall particles within reach.
+    pub fn n_wall(&self) -> usize {
+        self.wall.len()
+    }
+
+    /// Bytes held for neighbour rows, records and what is frozen.
+    pub fn bytes(&mut self) -> usize {
+        visit::bytes(&mut self.state)
+            + self.rows.bytes()
+            + self.wall.bytes()
+            + self.current.bytes()
+            + self.next.bytes()
+            + self.second.bytes()
+            + self.offsets.bytes()
+            + self.grid.bytes()
+            + self.frozen.capacity() * size_of::<Frozen>()
+            + self.strain.capacity() * size_of::<[f64; 6]>()
+            + 4 * (self.zone_of.capacity() + self.order.capacity())
+    }
+
+    /// Puts the particles in cell order.
+    pub fn sort(&mut self) {
+        self.grid.sort(&self.state.position, &mut self.order);
+        visit::reorder(&mut self.state, &self.order);
+    }
+
+    /// Finds neighbours among the sorted particles and measures the distance to the wall.
+    ///
+    /// `zones` lists the particles near caps, in any order.
+    pub fn search(&mut self, zones: &[CapZone]) {
+        let n = self.state.len();
+        self.set.fill(&self.frame, &self.state.position);
+        self.rows.build(
+            self.isa,
+            &self.frame,
+            (&self.set, &self.state.position),
+            &self.set,
+            &self.grid,
+            true,
+        );
+        self.wall.build_rows(self.isa, &self.frame, (&self.set, &self.state.position), &self.grid);
+        self.zone_of.clear();
+        self.zone_of.resize(n, 0);
+        for (k, zone) in zones.iter().enumerate() {
+            self.zone_of[zone.particle as usize] = k as u32 + 1;
+        }
+        self.frozen.resize(n, Frozen::default());
+        let floor = 0.05 * self.numbers.spacing;
+        let (distance, reach, rows) = (&self.wall_distance, self.reach, &self.wall.fluid_rows);
+        let position = &self.state.position;
+        self.frozen.par_chunks_mut(CHUNK).zip(rows.chunks()).enumerate().for_each(|(c, (frozen, row))| {
+            for (k, frozen) in frozen.iter_mut().enumerate() {
+                *frozen = Frozen::default();
+                if !row.is_row_empty(k) {
+                    let (phi, gradient) = distance.sample(position[c * CHUNK + k]);
+                    frozen.inverse_distance = 1.0 / (-phi).clamp(floor, reach);
+                    frozen.wall_normal = -gradient;
+                }
+            }
+        });
+    }
+
+    /// Signed distance to the wall \[m\] and its gradient.
+    pub(crate) fn distance(&self, x: DVec3) -> (f64, DVec3) {
+        self.wall_distance.sample(x)
+    }
+
+    /// Record of particle `i` with a scalar in its last field.
+    pub(crate) fn record(&self, i: usize, volume: f64, scalar: f64) -> [R; 8] {
+        let x = self.frame.in_supports(self.state.position[i]);
+        let fixed = self.set.get(i);
+        let v = self.state.velocity[i];
+        [
+            R::coordinate(fixed[0], x[0]),
+            R::coordinate(fixed[1], x[1]),
+            R::coordinate(fixed[2], x[2]),
+            R::pack(volume),
+            R::pack(v.x),
+            R::pack(v.y),
+            R::pack(v.z),
+            R::pack(scalar),
+        ]
+    }
+
+    /// Pressure of particle `i` \[Pa\], relative to the reference pressure.
+    pub fn pressure(&self, i: usize) -> f64 {
+        self.numbers.pressure(self.state.density_change[i])
+    }
+
+    /// Missing kernel support `sum V (B_i + B_j) grad W` of particle `i` \[1/m\]: a boundary
+    /// pressure `p_b` on the missing side accelerates it by `p_b / rho` times this.
+    pub fn missing_support(&self, i: usize) -> DVec3 {
+        self.frozen[i].support
+    }
+
+    /// Gives particle `i` a new velocity \[m/s\] after the kick of an acoustic step `dt` \[s\],
+    /// its drift included.
+    pub fn set_velocity(&mut self, i: usize, velocity: DVec3, dt: f64) {
+        let change = velocity - self.state.velocity[i];
+        self.state.velocity[i] = velocity;
+        self.state.position[i] += 0.5 * dt * change;
+        let record = &mut self.next.as_mut_slice()[i];
+        record[4] = R::pack(velocity.x);
+        record[5] = R::pack(velocity.y);
+        record[6] = R::pack(velocity.z);
+    }
+}
+
+/// First particle of a chunk.
+pub(crate) fn first_of(chunk: usize) -> usize {
+    chunk * CHUNK
+}
+
+/// Top of a value over particles, in chunks of fixed size so that threads cannot change it.
+pub(crate) fn maximum(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    (0..n.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|c| (first_of(c)..n.min(first_of(c + 1))).map(&value).fold(0.0, propagating_max))
+        .reduce(|| 0.0, propagating_max)
+}
+
+/// Maximum that keeps a NaN, so that a broken run shows.
+pub(crate) fn propagating_max(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// A chunk of rows with its first particle, as sweeps take it.
+pub(crate) fn numbered(chunk: &RowChunk, c: usize) -> (&RowChunk, usize) {
+    (chunk, first_of(c))
+}

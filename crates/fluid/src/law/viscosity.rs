@@ -1,0 +1,67 @@
+//! Viscous force, velocity gradient and corrected gradient sum, which read the same neighbours.
+
+use super::{add_outer, add_scaled, dot, gradient_weight, sym_mul};
+use vaso_kernels::{Lanes, Own, Pair, PairLaw, Real};
+
+/// Number of sums between fluid particles.
+pub const FLUID_SUMS: usize = 15;
+/// Number of sums with wall particles.
+pub const WALL_SUMS: usize = 12;
+
+/// Fluid pairs; the second record is the correction matrix B.
+///
+/// Sums `[0..3]` of `V u^3 B_j d`, `[3..6]` of `V u^3 e.(B_i + B_j)e (v_i - v_j)` (Morris, Fox, Zhu
+/// 1997, with the corrected gradient) and `[6..15]` of `V u^3 (v_i - v_j) (x) d`.
+pub struct FluidViscosity;
+
+impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidViscosity {
+    type Constants<L: Lanes<Elem = R>> = ();
+    const SECOND: bool = true;
+
+    fn constants<L: Lanes<Elem = R>>(&self) {}
+
+    #[inline(always)]
+    fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; FLUID_SUMS]) {
+        let g = gradient_weight(p.u, p.volume);
+        let b_j = sym_mul(&p.second, p.d);
+        let b_i = sym_mul(&own.second, p.d);
+        let factor = (dot(b_i, p.d) + dot(b_j, p.d)) * (p.r_inv * p.r_inv);
+        let dv = [own.velocity[0] - p.velocity[0], own.velocity[1] - p.velocity[1], own.velocity[2] - p.velocity[2]];
+        let gd = [g * p.d[0], g * p.d[1], g * p.d[2]];
+        add_scaled(sums, 0, g, b_j);
+        add_scaled(sums, 3, g * factor, dv);
+        add_outer(sums, 6, dv, gd);
+    }
+}
+
+/// Pairs with wall particles, whose velocity is extrapolated linearly from the fluid particle
+/// through the wall, `v_a = v_w - min(d_a / d_i, 5) (v_i - v_w)` (Morris, Fox, Zhu 1997).
+///
+/// The record's scalar is the depth `d_a` of the wall particle and the inverse distance `1 / d_i`
+/// of the fluid particle; the own second record is the correction matrix. Sums `[0..3]` of
+/// `V u^3 2 e.B_i e (v_i - v_a)` and `[3..12]` of `2 V u^3 (v_i - v_w) (x) d`.
+pub struct WallViscosity;
+
+/// Largest ratio of wall depth to fluid distance in the extrapolation: beyond, the explicit
+/// viscous step would have to shrink.
+const MAX_EXTRAPOLATION: f64 = 5.0;
+
+impl<R: Real> PairLaw<R, WALL_SUMS> for WallViscosity {
+    type Constants<L: Lanes<Elem = R>> = ();
+    const SECOND_OWN: bool = true;
+
+    fn constants<L: Lanes<Elem = R>>(&self) {}
+
+    #[inline(always)]
+    fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; WALL_SUMS]) {
+        let g = gradient_weight(p.u, p.volume);
+        let two = L::constant(2.0);
+        let ratio = (p.scalar * own.scalar).min(L::constant(MAX_EXTRAPOLATION));
+        let factor = two * dot(sym_mul(&own.second, p.d), p.d) * (p.r_inv * p.r_inv) * (L::constant(1.0) + ratio);
+        let dv = [own.velocity[0] - p.velocity[0], own.velocity[1] - p.velocity[1], own.velocity[2] - p.velocity[2]];
+        let g2 = two * g;
+        let gd = [g2 * p.d[0], g2 * p.d[1], g2 * p.d[2]];
+        add_scaled(sums, 0, g * factor, dv);
+        add_outer(sums, 3, dv, gd);
+    }
+}

@@ -1,0 +1,105 @@
+//! Density re-initialisation and kernel-gradient correction: sums over the frozen configuration.
+
+use crate::cap::CapZone;
+use crate::fluid::{Fluid, numbered};
+use crate::law::moments::{Moments, SUMS};
+use glam::DVec3;
+use rayon::prelude::*;
+use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, sweep};
+
+impl<R: Real> Fluid<R> {
+    /// Blends the density towards the kernel sum, `rho += omega (rho_sum - rho)` with
+    /// `rho_sum = (sum m W + rho0 sum_wall V W) / S0`, and finds the correction matrices.
+    ///
+    /// Particles in a buffer keep the density of the continuity equation: their kernel sum lacks the
+    /// side beyond the cap.
+    pub fn summation(&mut self, zones: &[CapZone]) {
+        let n = self.state.len();
+        let rho0 = self.numbers.rest_density;
+        self.current.resize(n);
+        self.next.resize(n);
+        self.second.resize(n);
+        let mut current = std::mem::take(&mut self.current);
+        current.fill(|i| {
+            let mass = self.state.mass[i];
+            self.record(i, mass / (rho0 + self.state.density_change[i]), mass / rho0)
+        });
+
+        let value = self.kernel.value_scale();
+        let gradient = self.kernel.gradient_scale();
+        let support = self.kernel.support();
+        let (blend, s0) = (self.numbers.density_blend, self.lattice_sum);
+        let (mass, zone_of) = (&self.state.mass, &self.zone_of);
+        let (rows, wall) = (&self.rows, &self.wall);
+        let (isa, frame) = (self.isa, &self.frame);
+        let fluid_gather =
+            Gather { frame, own: &current, other: &current, own_second: None, other_second: None };
+        let wall_gather =
+            Gather { frame, own: &current, other: &wall.kinematic, own_second: None, other_second: None };
+        (
+            self.frozen.par_chunks_mut(CHUNK),
+            self.state.density_change.par_chunks_mut(CHUNK),
+            self.second.as_mut_slice().par_chunks_mut(CHUNK),
+            rows.chunks(),
+            wall.fluid_rows.chunks(),
+        )
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(c, (frozen, density_change, second, row, wall_row))| {
+                let mut fluid = [[0.0; SUMS]; CHUNK];
+                let mut walls = [[0.0; SUMS]; CHUNK];
+                sweep(isa, &Moments, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
+                if !wall_row.has_no_pairs() {
+                    sweep(isa, &WallMoments, &wall_gather, numbered(wall_row, c), Store::None, &mut walls);
+                }
+                for k in 0..frozen.len() {
+                    let i = c * CHUNK + k;
+                    let (f, w) = (&fluid[k], &walls[k]);
+                    // The self term has u = 1, so u^4 (5 - 4u) = 1.
+                    let kernel_sum = value * (f[0] + mass[i] / rho0 + w[0]);
+                    let summed = rho0 * (kernel_sum / s0 - 1.0);
+                    let in_buffer = match zone_of[i] {
+                        0 => false,
+                        z => zones[z as usize - 1].in_buffer,
+                    };
+                    if !in_buffer {
+                        density_change[k] += blend * (summed - density_change[k]);
+                    }
+                    let moment = Sym3(std::array::from_fn(|q| gradient * support * (f[4 + q] + w[4 + q])));
+                    let frozen = &mut frozen[k];
+                    frozen.correction = Sym3::correction(&moment);
+                    frozen.fluid_gradient = -gradient * DVec3::new(f[1], f[2], f[3]);
+                    frozen.wall_gradient = -gradient * DVec3::new(w[1], w[2], w[3]);
+                    frozen.wall_area = gradient * w[10];
+                    second[k] = pack_sym(&frozen.correction.0);
+                }
+            });
+        self.current = current;
+    }
+}
+
+/// [`Moments`] with the neighbour's volume as weight: the scalar of a wall record is not a volume.
+struct WallMoments;
+
+impl<R: Real> vaso_kernels::PairLaw<R, SUMS> for WallMoments {
+    type Constants<L: vaso_kernels::Lanes<Elem = R>> = ();
+
+    fn constants<L: vaso_kernels::Lanes<Elem = R>>(&self) {}
+
+    #[inline(always)]
+    fn pair<L: vaso_kernels::Lanes<Elem = R>>(
+        (): &(),
+        own: &vaso_kernels::Own<L>,
+        pair: &vaso_kernels::Pair<L>,
+        sums: &mut [L; SUMS],
+    ) {
+        let by_volume = vaso_kernels::Pair { scalar: pair.volume, ..*pair };
+        <Moments as vaso_kernels::PairLaw<R, SUMS>>::pair(&(), own, &by_volume, sums);
+    }
+}
+
+/// Second record of a symmetric matrix.
+pub(crate) fn pack_sym<R: Real>(s: &[f64; 6]) -> [R; 8] {
+    let p = R::pack;
+    [p(s[0]), p(s[1]), p(s[2]), p(s[3]), p(s[4]), p(s[5]), p(0.0), p(0.0)]
+}

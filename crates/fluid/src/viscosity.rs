@@ -1,0 +1,104 @@
+//! Viscous acceleration, and the sums with corrected gradients that read the same neighbours.
+
+use crate::fluid::{Fluid, Frozen, numbered};
+use crate::law::offset::Offset;
+use crate::law::viscosity::{FLUID_SUMS, FluidViscosity, WALL_SUMS, WallViscosity};
+use crate::summation::pack_sym;
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
+
+impl<R: Real> Fluid<R> {
+    /// Finds the viscous acceleration, the own-pressure and support sums, and the velocity offsets
+    /// of all pairs; needs [`Self::summation`] before it.
+    pub fn viscosity(&mut self) {
+        let n = self.state.len();
+        self.strain.resize(n, [0.0; 6]);
+        // The wall law wants the inverse distance where the other laws want the pressure.
+        let frozen = &self.frozen;
+        self.current
+            .as_mut_slice()
+            .par_iter_mut()
+            .zip(frozen)
+            .with_min_len(1024)
+            .for_each(|(record, frozen)| record[7] = R::pack(frozen.inverse_distance));
+
+        let gradient = self.kernel.gradient_scale();
+        let support = self.kernel.support();
+        let (mu, rho0) = (self.numbers.viscosity, self.numbers.rest_density);
+        let density_change = &self.state.density_change;
+        let (isa, frame) = (self.isa, &self.frame);
+        let (current, second, wall) = (&self.current, &self.second, &self.wall);
+        let fluid_gather = Gather {
+            frame,
+            own: current,
+            other: current,
+            own_second: Some(second),
+            other_second: Some(second),
+        };
+        let wall_gather = Gather {
+            frame,
+            own: current,
+            other: &wall.kinematic,
+            own_second: Some(second),
+            other_second: None,
+        };
+        (
+            self.frozen.par_chunks_mut(CHUNK),
+            self.strain.par_chunks_mut(CHUNK),
+            self.rows.chunks(),
+            wall.fluid_rows.chunks(),
+        )
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(c, (frozen, strain, row, wall_row))| {
+                let mut fluid = [[0.0; FLUID_SUMS]; CHUNK];
+                let mut walls = [[0.0; WALL_SUMS]; CHUNK];
+                sweep(isa, &FluidViscosity, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
+                if !wall_row.has_no_pairs() {
+                    sweep(isa, &WallViscosity, &wall_gather, numbered(wall_row, c), Store::None, &mut walls);
+                }
+                for k in 0..frozen.len() {
+                    let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
+                    let rho = rho0 + density_change[c * CHUNK + k];
+                    let drag = DVec3::new(f[3] + w[0], f[4] + w[1], f[5] + w[2]);
+                    frozen.acceleration = -gradient * mu / (support * rho) * drag;
+                    let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
+                    set_gradient_sums(frozen, neighbours);
+                    let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
+                    strain[k] = scaled_strain(&raw, frozen, 0.5 * support);
+                }
+            });
+
+        let strain = &self.strain;
+        self.second.fill(|i| pack_sym(&strain[i]));
+        self.offsets.resize_for(self.rows.chunks());
+        let gather = Gather {
+            frame: &self.frame,
+            own: &self.current,
+            other: &self.current,
+            own_second: Some(&self.second),
+            other_second: Some(&self.second),
+        };
+        self.offsets.chunks_mut().par_iter_mut().zip(self.rows.chunks()).enumerate().for_each(
+            |(c, (store, row))| {
+                sweep(isa, &Offset, &gather, numbered(row, c), Store::Write(store), &mut [[]; CHUNK]);
+            },
+        );
+    }
+}
+
+/// `K' = sum V B_j grad W + B_i g_wall` and `k = K' + B_i (g_fluid + g_wall)`.
+fn set_gradient_sums(frozen: &mut Frozen, neighbours: DVec3) {
+    let b = frozen.correction;
+    frozen.own_pressure = neighbours + b.mul(frozen.wall_gradient);
+    frozen.support = frozen.own_pressure + b.mul(frozen.fluid_gradient + frozen.wall_gradient);
+}
+
+/// Symmetric part of the corrected velocity gradient, times `scale`; `raw` is `sum V (v_j - v_i) (x) grad W`.
+fn scaled_strain(raw: &[f64; 9], frozen: &Frozen, scale: f64) -> [f64; 6] {
+    let row = |r: usize| frozen.correction.mul(DVec3::new(raw[3 * r], raw[3 * r + 1], raw[3 * r + 2]));
+    let g = DMat3::from_cols(row(0), row(1), row(2));
+    let sym = |a: usize, b: usize| 0.5 * scale * (g.col(a)[b] + g.col(b)[a]);
+    [sym(0, 0), sym(1, 1), sym(2, 2), sym(0, 1), sym(0, 2), sym(1, 2)]
+}
