@@ -32,8 +32,8 @@ const STEP_CHUNK: usize = 256;
 /// Rows a chunk of particle data. A frame rewrites the one chunk it shares with its predecessor and the old
 /// version is lost space: small chunks keep that small, large ones compress better and are fewer.
 pub(super) const POINT_CHUNK: usize = 4096;
-/// Deflate level of particle data: higher levels cost time and gain little on floating-point noise.
-const LEVEL: u32 = 4;
+/// Deflate level of particle data: half the time of level 4 for 4 % more bytes, as the rest is noise.
+const LEVEL: u32 = 1;
 
 pub(super) fn cells(kind: &str, list: &str) -> String {
     format!("{ROOT}/{kind}/{list}")
