@@ -1,1 +1,13 @@
-//! Text to SI numbers with dimensions, and back.
+#![doc = include_str!("../README.md")]
+
+pub mod dimension;
+mod error;
+mod parse;
+mod pretty;
+mod table;
+
+pub use dimension::Dimension;
+pub use error::UnitError;
+pub use parse::{Quantity, parse, parse_as, parse_unit};
+pub use pretty::pretty;
+pub use table::nearest;
