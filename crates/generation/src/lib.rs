@@ -1,1 +1,138 @@
-//! From a vessel surface to relaxed fluid and wall particles.
+#![doc = include_str!("../README.md")]
+
+mod error;
+mod extended;
+mod faces;
+mod lattice;
+mod lumen;
+mod neighbors;
+mod quality;
+mod random;
+mod region;
+mod relax;
+mod wall;
+
+pub use error::{GenerationError, Warning, warnings};
+pub use lattice::Lattice;
+pub use quality::Quality;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use region::Region;
+use relax::Relaxation;
+use vaso_geometry::{SignedDistance, Vessel};
+use vaso_kernels::Wendland;
+
+/// Thickness of a rigid wall, in spacings: one kernel support and more at the usual smoothing length.
+pub const WALL_LAYERS: f64 = 4.0;
+
+/// How particles are made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Distance between particles dp \[m\].
+    pub spacing: f64,
+    /// Smoothing length over spacing h/dp, 1 to 2.
+    pub smoothing: f64,
+    /// Lattice the relaxation starts from.
+    pub lattice: Lattice,
+    /// Most relaxation steps.
+    pub steps: usize,
+    /// Seed of the random start displacement.
+    pub seed: u64,
+}
+
+impl Settings {
+    /// The usual settings for a `spacing` \[m\]: cubic lattice, h = 1.3 dp, 200 steps.
+    pub fn new(spacing: f64) -> Self {
+        Self { spacing, smoothing: 1.3, lattice: Lattice::Cubic, steps: 200, seed: 0 }
+    }
+}
+
+/// Particles of one body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Positions \[m\], neighbours near each other in memory.
+    pub position: Vec<DVec3>,
+    /// Volume of each particle \[m^3\], the same for all.
+    pub volume: f64,
+    /// Of a wall: unit normal away from the lumen; empty for a fluid.
+    pub normal: Vec<DVec3>,
+    /// Of a wall: distance outside the lumen surface \[m\], beyond a cap that from the cap drawn out
+    /// straight; empty for a fluid.
+    pub depth: Vec<f64>,
+    /// How good the set is.
+    pub quality: Quality,
+}
+
+/// Fills the lumen of `vessel` with relaxed particles.
+///
+/// The volumes add up to that of the closed surface. `progress` is told the relaxation step and the
+/// mean displacement in spacings.
+///
+/// # Errors
+/// A setting out of range, or a spacing too coarse or too fine for the vessel.
+pub fn fluid(
+    vessel: &Vessel,
+    settings: &Settings,
+    progress: &mut dyn FnMut(usize, f64),
+) -> Result<Body, GenerationError> {
+    error::check(vessel, settings)?;
+    let volume = vessel.surface.volume();
+    error::particle_count(volume, settings.spacing)?;
+    let region = lumen::Lumen::new(vessel, settings.spacing);
+    let mut body = fill(&region, volume, settings, progress)?;
+    let closed = SignedDistance::closed(vessel);
+    body.quality.outside = body.position.par_iter().filter(|x| closed.query(**x).distance >= 0.0).count();
+    Ok(body)
+}
+
+/// Surrounds the lumen of `vessel` with a wall of [`WALL_LAYERS`] spacings.
+///
+/// The wall is the layer within that distance of the lumen surface, so walls of limbs that come close
+/// merge, and none enters a lumen. At each opening it goes on straight for 2h; nothing stands in front
+/// of the opening.
+///
+/// # Errors
+/// As for [`fluid`].
+pub fn rigid_wall(
+    vessel: &Vessel,
+    settings: &Settings,
+    progress: &mut dyn FnMut(usize, f64),
+) -> Result<Body, GenerationError> {
+    error::check(vessel, settings)?;
+    let dp = settings.spacing;
+    let thickness = WALL_LAYERS * dp;
+    error::particle_count(vessel.surface.area() * thickness, dp)?;
+    let region = wall::WallLayer::new(vessel, thickness, 2.0 * settings.smoothing * dp, dp);
+    let volume = lattice::volume(&region, 0.5 * dp);
+    let mut body = fill(&region, volume, settings, progress)?;
+    // Between limbs nearer than a spacing there is no room: what is left in a lumen is taken out.
+    let closed = SignedDistance::closed(vessel);
+    let keep = |x: &DVec3| closed.query(*x).distance > 0.0 && region.exact_level(*x) < 0.0;
+    let kept: Vec<DVec3> = body.position.par_iter().copied().filter(keep).collect();
+    body.quality.count = kept.len();
+    body.position = kept;
+    (body.depth, body.normal) = body.position.par_iter().map(|x| region.depth(*x)).unzip();
+    Ok(body)
+}
+
+/// Fills a region of known volume with particles and relaxes them.
+fn fill<R: Region>(
+    region: &R,
+    region_volume: f64,
+    settings: &Settings,
+    progress: &mut dyn FnMut(usize, f64),
+) -> Result<Body, GenerationError> {
+    let &Settings { spacing, smoothing, lattice, steps, seed } = settings;
+    let count = error::particle_count(region_volume, spacing)?;
+    let mut position = lattice::deepest_sites(region, lattice, spacing, count)
+        .ok_or(GenerationError::Empty { spacing, volume: region_volume })?;
+    let kernel = Wendland::new(smoothing * spacing);
+    let volume = region_volume / count as f64;
+    let relaxation = Relaxation { region, kernel, spacing, volume };
+    let iterations = relaxation.run(&mut position, steps, seed, progress);
+    relaxation.bound_exactly(&mut position);
+    let mut quality = Quality::measure(&relaxation, &mut position, region_volume);
+    quality.iterations = iterations;
+    Ok(Body { position, volume, normal: Vec::new(), depth: Vec::new(), quality })
+}

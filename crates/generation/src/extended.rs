@@ -1,0 +1,106 @@
+//! The lumen with its openings drawn out straight, so that the wall has a distance beyond the caps.
+//!
+//! Inside the vessel the distance to the drawn-out wall is the distance to the wall. Beyond a cap it is
+//! the in-plane distance to the border of the cap: there the collar of the wall ends, and in front of an
+//! opening one is inside the drawn-out lumen, where no wall belongs.
+
+use glam::DVec3;
+use std::collections::BTreeMap;
+use vaso_geometry::{DistanceGrid, SignedDistance, Surface, Vessel};
+
+/// Distance to the wall of a vessel whose openings are drawn out.
+pub(crate) struct ExtendedLumen {
+    exact: SignedDistance,
+    table: DistanceGrid,
+    /// Box of the drawn-out surface, widened by the reach \[m\].
+    pub(crate) bounds: (DVec3, DVec3),
+    /// Distance up to which the table tells the truth \[m\].
+    pub(crate) band: f64,
+    /// By how much each opening is drawn out \[m\].
+    pub(crate) length: Vec<f64>,
+}
+
+impl ExtendedLumen {
+    /// Draws each opening out by `length` \[m\], less where another part of the vessel is in the way.
+    ///
+    /// `reach` \[m\] is how far outside the wall the distance will be asked for.
+    pub(crate) fn new(vessel: &Vessel, length: f64, reach: f64, spacing: f64) -> Self {
+        let closed = SignedDistance::closed(vessel);
+        let free = |opening| free_length(vessel, &closed, opening, length, spacing);
+        let length: Vec<f64> = (0..vessel.openings.len()).map(free).collect();
+        let extended = draw_out(vessel, &length);
+        let (low, high) = extended.surface.bounds();
+        let bounds = (low - reach, high + reach);
+        let band = 6.5 * spacing;
+        let exact = SignedDistance::closed(&extended);
+        let table =
+            DistanceGrid::build(&exact, (low - reach - spacing, high + reach + spacing), spacing, band);
+        Self { exact, table, bounds, band, length }
+    }
+
+    /// Distance \[m\], negative inside, and its gradient, from the table.
+    pub(crate) fn sample(&self, x: DVec3) -> (f64, DVec3) {
+        self.table.sample(x)
+    }
+
+    /// Distance \[m\], negative inside, and its gradient.
+    pub(crate) fn query(&self, x: DVec3) -> (f64, DVec3) {
+        let nearest = self.exact.query(x);
+        (nearest.distance, nearest.normal)
+    }
+}
+
+/// How far the border of an opening can be moved out before another part of the vessel is nearer than
+/// the opening itself \[m\].
+fn free_length(vessel: &Vessel, closed: &SignedDistance, opening: usize, length: f64, spacing: f64) -> f64 {
+    let o = &vessel.openings[opening];
+    let step = 0.5 * spacing;
+    let is_free = |l: f64| {
+        o.polygon.iter().all(|&[u, v]| {
+            let x = o.center + u * o.axes[0] + v * o.axes[1] + l * o.normal;
+            closed.query(x).distance >= 0.5 * l
+        })
+    };
+    let steps = (length / step).ceil() as usize;
+    let free = (1..=steps).take_while(|&k| is_free(k as f64 * step)).count();
+    (free.max(1) as f64 * step).min(length)
+}
+
+/// The vessel with the caps moved out by `length` and a strip of triangles in between.
+fn draw_out(vessel: &Vessel, length: &[f64]) -> Vessel {
+    let Surface { mut vertices, mut triangles } = vessel.surface.clone();
+    let mut face_opening = vessel.face_opening.clone();
+    for (k, opening) in vessel.openings.iter().enumerate() {
+        let cap: Vec<usize> = (0..vessel.surface.triangles.len())
+            .filter(|&t| vessel.face_opening[t] == Some(k as u32))
+            .collect();
+        let border = border(cap.iter().map(|&t| vessel.surface.triangles[t]));
+        let mut moved = BTreeMap::new();
+        let mut copy = |v: u32| {
+            *moved.entry(v).or_insert_with(|| {
+                vertices.push(vertices[v as usize] + length[k] * opening.normal);
+                vertices.len() as u32 - 1
+            })
+        };
+        for &t in &cap {
+            triangles[t] = triangles[t].map(&mut copy);
+        }
+        for (a, b) in border {
+            let (a_out, b_out) = (copy(a), copy(b));
+            triangles.extend([[a, b, b_out], [a, b_out, a_out]]);
+            face_opening.extend([None, None]);
+        }
+    }
+    let mut extended = vessel.clone();
+    extended.surface = Surface { vertices, triangles };
+    extended.face_opening = face_opening;
+    extended
+}
+
+/// Directed edges of a patch of triangles that have no neighbour in the patch.
+fn border(patch: impl Iterator<Item = [u32; 3]>) -> Vec<(u32, u32)> {
+    let mut edges: Vec<(u32, u32)> = patch.flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+    edges.sort_unstable();
+    let inner = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
+    edges.iter().filter(|e| !inner(e)).copied().collect()
+}

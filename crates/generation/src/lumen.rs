@@ -1,0 +1,80 @@
+//! The fluid region: the lumen up to its caps.
+
+use crate::extended::ExtendedLumen;
+use crate::faces::Faces;
+use crate::region::Region;
+use glam::DVec3;
+use vaso_geometry::Vessel;
+
+/// By how much the wall is drawn out beyond the caps, in spacings: its distance is then smooth where
+/// wall and cap meet, whatever the table mixes.
+const EXTENSION: f64 = 2.0;
+
+/// The lumen of a vessel, its wall and each cap a face of its own.
+pub(crate) struct Lumen<'a> {
+    vessel: &'a Vessel,
+    wall: ExtendedLumen,
+    spacing: f64,
+    bounds: (DVec3, DVec3),
+}
+
+impl<'a> Lumen<'a> {
+    /// Lumen for particles of `spacing` \[m\].
+    pub(crate) fn new(vessel: &'a Vessel, spacing: f64) -> Self {
+        let wall = ExtendedLumen::new(vessel, EXTENSION * spacing, spacing, spacing);
+        let (low, high) = vessel.surface.bounds();
+        Self { vessel, wall, spacing, bounds: (low - spacing, high + spacing) }
+    }
+
+    /// Depth below each cap that `x` is at most `reach` \[m\] away from, and its normal.
+    ///
+    /// A cap is a face only for what lies before it: a limb that runs past beside it does not feel it.
+    /// The cone of 45 degrees leaves room for caps that cut the vessel at a slant.
+    fn caps(&self, x: DVec3, reach: f64) -> impl Iterator<Item = (f64, DVec3)> + '_ {
+        let openings = self.vessel.openings.iter().zip(&self.wall.length);
+        openings.filter_map(move |(opening, length)| {
+            let depth = opening.depth(x);
+            let near = depth < reach && depth > -length && opening.lateral(x) <= self.spacing + depth.abs();
+            near.then_some((depth, opening.normal))
+        })
+    }
+
+    fn level_at(&self, x: DVec3, wall: f64) -> f64 {
+        self.caps(x, self.band()).fold(wall, |level, (depth, _)| level.max(-depth))
+    }
+
+    fn faces_at(&self, x: DVec3, (wall, outward): (f64, DVec3)) -> Faces {
+        let mut faces = Faces::new();
+        faces.push(-wall, outward);
+        for (depth, normal) in self.caps(x, 4.0 * self.spacing) {
+            faces.push(depth, normal);
+        }
+        faces
+    }
+}
+
+impl Region for Lumen<'_> {
+    fn bounds(&self) -> (DVec3, DVec3) {
+        self.bounds
+    }
+
+    fn band(&self) -> f64 {
+        self.wall.band
+    }
+
+    fn level(&self, x: DVec3) -> f64 {
+        self.level_at(x, self.wall.sample(x).0)
+    }
+
+    fn exact_level(&self, x: DVec3) -> f64 {
+        self.level_at(x, self.wall.query(x).0)
+    }
+
+    fn faces(&self, x: DVec3) -> Faces {
+        self.faces_at(x, self.wall.sample(x))
+    }
+
+    fn exact_faces(&self, x: DVec3) -> Faces {
+        self.faces_at(x, self.wall.query(x))
+    }
+}
