@@ -1,0 +1,201 @@
+//! The validated case: data only, in SI units.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::SceneError;
+use crate::material::{Blood, Wall};
+use crate::opening::Opening;
+use crate::words::words;
+
+/// A whole case, checked: what is inconsistent or out of range never becomes a `Scene`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The `case.toml` it was read from.
+    pub file: PathBuf,
+    /// The folder relative paths of the case start from.
+    pub directory: PathBuf,
+    /// `case.title`; the name of the folder where none is given.
+    pub title: String,
+    /// The vessel surface.
+    pub geometry: Geometry,
+    /// How particles are made.
+    pub particles: Particles,
+    /// The fluid; `None` for a wall alone under its own pressure load.
+    pub blood: Option<Blood>,
+    /// The vessel wall.
+    pub wall: Wall,
+    /// Conditions at the openings in the order of the file. Empty until the openings have been looked at with
+    /// `vaso check`; a run with blood needs one for each opening of the surface.
+    pub openings: Vec<Opening>,
+    /// Points whose values are recorded.
+    pub probes: Vec<Probe>,
+    /// Choices of the numerical method.
+    pub numerics: Numerics,
+    /// How long to simulate.
+    pub run: Run,
+    /// What to write and how often.
+    pub output: Output,
+}
+
+impl Scene {
+    /// Reads and checks a case.
+    ///
+    /// `path` is a case folder or the path of its `case.toml`. Each override is a dotted key and a value, as given to
+    /// `--set key=value`: the value is taken as TOML where it is TOML and as a string otherwise, and an element of
+    /// `[[opening]]` or `[[probe]]` is addressed by its name or by its number from 0.
+    ///
+    /// # Errors
+    /// [`SceneError`] with every problem found: in the file, in the overrides and in the waveform tables.
+    pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        crate::check::load(path, overrides)
+    }
+}
+
+/// The vessel surface and the unit of its coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Geometry {
+    /// The surface file, an existing path.
+    pub surface: PathBuf,
+    /// Unit of its coordinates: `"m"`, `"cm"`, `"mm"` or `"um"`; `None` leaves it to be guessed from the size.
+    pub unit: Option<String>,
+}
+
+/// How the surface is filled with particles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Particles {
+    /// Distance between neighbouring particles \[m\].
+    pub spacing: f64,
+    /// Where they are placed first.
+    pub generator: Generator,
+    /// Relaxation steps after placing.
+    pub relaxation_steps: u32,
+}
+
+/// How particles are placed before they are relaxed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Generator {
+    /// A lattice cut by the surface.
+    RelaxedLattice(
+        /// The lattice it starts from.
+        Lattice,
+    ),
+    /// Blocks of transfinite interpolation along the vessel.
+    Multiblock(
+        /// How a cross-section is divided.
+        Topology,
+    ),
+}
+
+words! {
+    /// The lattice particles start from.
+    pub enum Lattice {
+        /// Simple cubic.
+        Cubic = "cubic",
+        /// Body-centred cubic.
+        BodyCentred = "bcc",
+    }
+}
+
+words! {
+    /// How a multiblock cross-section is divided.
+    pub enum Topology {
+        /// One block over the whole section.
+        Single = "single",
+        /// A core block with eight around it.
+        NineBlock = "nine-block",
+        /// A core block inside a ring.
+        OGrid = "o-grid",
+    }
+}
+
+/// A point whose values are recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe {
+    /// Its name in `probes.csv`, unique in the case.
+    pub name: String,
+    /// Where it is, in the unit of the surface.
+    pub at: [f64; 3],
+}
+
+/// Choices of the numerical method; `None` leaves the choice to the planner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Numerics {
+    /// Arithmetic of the pair loops.
+    pub precision: Precision,
+    /// Numerical sound speed \[m/s\]; `None` chooses it from the expected velocity and pressure.
+    pub sound_speed: Option<f64>,
+    /// Least ratio of the chosen sound speed to the expected largest velocity.
+    pub sound_speed_factor: f64,
+    /// Share of the summed density mixed in at every advective step, from 0 to 1; `None` chooses it from the
+    /// resolution.
+    pub density_blend: Option<f64>,
+    /// Smoothing length in spacings; the support radius is twice this.
+    pub smoothing_length: f64,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Pressure subtracted in the equation of state \[Pa\], gauge; `None` follows the outlets for rigid walls.
+    pub reference_pressure: Option<f64>,
+    /// Go on when the velocity comes too near to the numerical sound speed.
+    pub allow_mach: bool,
+}
+
+words! {
+    /// Arithmetic of the pair loops; the state is always double.
+    pub enum Precision {
+        /// Pair terms in single precision.
+        Mixed = "mixed",
+        /// Everything in double precision, the reference.
+        Double = "double",
+    }
+}
+
+/// How long to simulate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// Simulated time at the end \[s\]; cycles times period where cycles were asked for.
+    pub end_time: f64,
+    /// Heart period \[s\], where one was given.
+    pub period: Option<f64>,
+    /// Number of heart cycles, where cycles were asked for.
+    pub cycles: Option<u32>,
+    /// End early once the flow of every opening changes by less than this share (from one cycle to the next where
+    /// there is a period).
+    pub steady: Option<f64>,
+}
+
+/// What to write and how often; intervals are in simulated time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Interval of the particle series \[s\].
+    pub every: f64,
+    /// Interval of `openings.csv` and `probes.csv` \[s\].
+    pub table_every: f64,
+    /// Fields of the particle series, sorted, none twice.
+    pub fields: Vec<Field>,
+    /// Interval of checkpoints \[s\]; `None` writes one at the end or on interruption.
+    pub checkpoint_every: Option<f64>,
+}
+
+words! {
+    /// A field of the output series.
+    pub enum Field {
+        /// Fluid velocity \[m/s\].
+        Velocity = "velocity",
+        /// Gauge pressure \[Pa\].
+        Pressure = "pressure",
+        /// Fluid density \[kg/m^3\].
+        Density = "density",
+        /// Displacement of the wall \[m\].
+        Displacement = "displacement",
+        /// Von Mises stress of the wall \[Pa\].
+        VonMises = "von_mises",
+        /// Wall shear stress \[Pa\].
+        Wss = "wss",
+        /// Time average of the magnitude of the wall shear stress over a cycle \[Pa\].
+        Tawss = "tawss",
+        /// Oscillatory shear index over a cycle, from 0 to 0.5.
+        Osi = "osi",
+        /// Relative residence time over a cycle \[1/Pa\].
+        Rrt = "rrt",
+    }
+}
