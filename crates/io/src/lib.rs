@@ -1,16 +1,22 @@
 #![doc = include_str!("../README.md")]
 
+mod archive;
 mod atomic;
+mod cache;
 mod error;
 mod hdf5;
 mod json;
 pub mod schema;
 mod series;
 mod summary;
+mod table;
 
+pub use archive::Archive;
+pub use cache::{Cache, CacheKey, KeyBuilder};
 pub use error::IoError;
 pub use series::{FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, read_series_info};
 pub use summary::{
     CheckReport, EffectEntry, Numbers, OpeningEntry, OpeningSummary, ParticleCounts, ParticlesReport, Predicted,
     Quality, Stability, Status, StepCounts, Summary, SurfaceReport,
 };
+pub use table::{Table, TableData, read_table};

@@ -93,7 +93,7 @@ pub(super) struct Step {
 }
 
 /// Rows in use, dataset by dataset, and the last frame to compare the next one with.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Planner {
     pub(super) fields: Vec<Field>,
     pub(super) steps: i64,

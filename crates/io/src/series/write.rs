@@ -1,6 +1,6 @@
 //! Appending frames so that the public file is whole at every moment.
 
-use super::plan::{Planner, Step};
+use super::plan::{Field, Planner, Step};
 use super::read::SeriesReader;
 use super::{Frame, layout};
 use crate::hdf5::{self, Write};
@@ -65,7 +65,7 @@ impl SeriesWriter {
                 let step = writer.planner.plan(&frame.view()).map_err(|what| writer.damaged(what))?;
                 let file = match &file {
                     Some(file) => file,
-                    None => file.insert(writer.start(&draft)?),
+                    None => file.insert(writer.start(&draft, &writer.planner.fields)?),
                 };
                 step.apply(file).map_err(|text| IoError::hdf5(&draft, "write", text))?;
             }
@@ -115,21 +115,23 @@ impl SeriesWriter {
     /// [`IoError::Mismatch`] when lengths, fields or time do not fit the frames before (nothing is written
     /// then), [`IoError::System`] or [`IoError::Hdf5`] when the disk refuses; the public file stays as it was.
     pub fn append(&mut self, frame: &Frame<'_>) -> Result<(), IoError> {
-        let step = self
-            .planner
-            .plan(frame)
-            .map_err(|what| IoError::Mismatch { path: self.path.clone(), what })?;
-        let (draft, file) = self.open_draft()?;
+        // Planned on a copy (the arrays in it are shared): after a failure the writer stands where it stood.
+        let mut planner = self.planner.clone();
+        let step =
+            planner.plan(frame).map_err(|what| IoError::Mismatch { path: self.path.clone(), what })?;
+        let (draft, file) = self.open_draft(&planner.fields)?;
         let written = step.apply(&file).and_then(|()| file.close());
         if let Err(text) = written {
             atomic::remove_if_present(&draft);
             return Err(IoError::hdf5(&self.path, "append to", text));
         }
-        self.swap(draft, step)
+        self.swap(draft, step)?;
+        self.planner = planner;
+        Ok(())
     }
 
     /// Opens the hidden copy with all frames but the new one in it.
-    fn open_draft(&mut self) -> Result<(PathBuf, hdf5::Writer), IoError> {
+    fn open_draft(&mut self, fields: &[Field]) -> Result<(PathBuf, hdf5::Writer), IoError> {
         if let Some((path, missing)) = self.hidden.take() {
             // A reader may still hold this file from the time it was public: then it must not change under it.
             let opened = hdf5::Writer::append(&path).and_then(|file| missing.apply(&file).map(|()| file));
@@ -145,14 +147,14 @@ impl SeriesWriter {
                 .map_err(|text| IoError::hdf5(&self.path, "append to", text))?;
             Ok((draft, file))
         } else {
-            let file = self.start(&draft)?;
+            let file = self.start(&draft, fields)?;
             Ok((draft, file))
         }
     }
 
-    fn start(&self, path: &Path) -> Result<hdf5::Writer, IoError> {
+    fn start(&self, path: &Path, fields: &[Field]) -> Result<hdf5::Writer, IoError> {
         hdf5::Writer::create(path)
-            .and_then(|file| layout::skeleton(&file, &self.planner.fields).map(|()| file))
+            .and_then(|file| layout::skeleton(&file, fields).map(|()| file))
             .map_err(|text| IoError::hdf5(&self.path, "create", text))
     }
 
