@@ -1,0 +1,193 @@
+//! Caps that are part of the surface: flat regions that end a tube.
+
+use std::collections::VecDeque;
+
+use glam::DVec3;
+
+use crate::{
+    audit::{FlatRegion, Rejection},
+    close::{CORNER_DEGREES, MIN_CAP_AREA},
+    opening::Opening,
+    polygon,
+    repair::{
+        edges::{Edges, NONE},
+        loops,
+    },
+    surface::Surface,
+    winding::WindingTree,
+};
+
+/// Largest angle between the normals of the triangles of a cap and of its plane [degrees].
+const FLAT_DEGREES: f64 = 2.0;
+/// Largest distance of the vertices of a cap from its plane, as part of the diagonal of the surface.
+const FLAT_DISTANCE: f64 = 1e-3;
+/// Within this part of the diagonal a triangle counts as lying in the plane whatever its normal: the normals
+/// of slivers are rounding errors of their single-precision coordinates.
+const EXACT_DISTANCE: f64 = 1e-6;
+/// Smallest 4 pi A / P^2 of a cap: an ellipse of 1 : 3 has 0.6.
+const MIN_CIRCULARITY: f64 = 0.6;
+/// Number of places tested on each side of a cap, and how many may fail.
+const SAMPLES: usize = 16;
+const MAX_FAILED_SAMPLES: usize = 2;
+
+/// A cap found on the surface.
+pub(crate) struct Cap {
+    pub(crate) opening: Opening,
+    pub(crate) triangles: Vec<usize>,
+}
+
+/// Finds the caps among the triangles not yet taken, and lists the flat regions considered.
+pub(crate) fn find(surface: &Surface, taken: &[bool]) -> (Vec<Cap>, Vec<FlatRegion>) {
+    let n = surface.triangles.len();
+    let across = Edges::new(&surface.triangles).neighbours(n);
+    let corners: Vec<[DVec3; 3]> = (0..n).map(|t| surface.triangle(t)).collect();
+    let tree = WindingTree::new(&corners);
+    let min_area = MIN_CAP_AREA * surface.area();
+    let mut finder = Finder { surface, across, diagonal: surface.diagonal(), in_region: taken.to_vec() };
+    let mut seeds: Vec<usize> = (0..n).collect();
+    seeds.sort_by(|&a, &b| surface.triangle_area(b).total_cmp(&surface.triangle_area(a)));
+    let (mut caps, mut regions) = (Vec::new(), Vec::new());
+    for seed in seeds {
+        if finder.in_region[seed] {
+            continue;
+        }
+        let triangles = finder.grow(seed);
+        let area: f64 = triangles.iter().map(|&t| surface.triangle_area(t)).sum();
+        // A pair of triangles is flat by chance; it is not worth a line in a report either.
+        if area < min_area || triangles.len() < 3 {
+            continue;
+        }
+        triangles.iter().for_each(|&t| finder.in_region[t] = true);
+        let Some((opening, region)) = finder.judge(&triangles, &tree) else { continue };
+        if region.rejected.is_none() {
+            caps.push(Cap { opening, triangles });
+        }
+        if region.rejected != Some(Rejection::NotRound) {
+            regions.push(region);
+        }
+    }
+    regions.sort_by(|a, b| b.area.total_cmp(&a.area));
+    (caps, regions)
+}
+
+struct Finder<'a> {
+    surface: &'a Surface,
+    across: Vec<[u32; 3]>,
+    diagonal: f64,
+    in_region: Vec<bool>,
+}
+
+impl Finder<'_> {
+    /// The flat region around a triangle: first by the plane of the seed, then by the mean plane of what
+    /// that found, which the seed's own rounding errors do not tilt.
+    fn grow(&self, seed: usize) -> Vec<usize> {
+        let normal = self.surface.triangle_normal(seed);
+        if normal == DVec3::ZERO {
+            return vec![seed];
+        }
+        let rough = self.flood(seed, normal, self.surface.triangle(seed)[0]);
+        let area_vector: DVec3 = rough.iter().map(|&t| self.surface.area_vector(t)).sum();
+        let (mut weight, mut moment) = (0.0, DVec3::ZERO);
+        for &t in &rough {
+            let area = self.surface.triangle_area(t);
+            weight += area;
+            moment += area * self.surface.triangle(t).iter().sum::<DVec3>() / 3.0;
+        }
+        match area_vector.try_normalize() {
+            Some(mean) => self.flood(seed, mean, moment / weight),
+            None => rough,
+        }
+    }
+
+    fn flood(&self, seed: usize, normal: DVec3, place: DVec3) -> Vec<usize> {
+        let min_cosine = FLAT_DEGREES.to_radians().cos();
+        let lies_within = |t: usize, distance: f64| {
+            self.surface.triangle(t).iter().all(|&p| (p - place).dot(normal).abs() <= distance)
+        };
+        let belongs = |t: usize| {
+            !self.in_region[t]
+                && (lies_within(t, EXACT_DISTANCE * self.diagonal)
+                    || (self.surface.triangle_normal(t).dot(normal) >= min_cosine
+                        && lies_within(t, FLAT_DISTANCE * self.diagonal)))
+        };
+        let mut region = vec![seed];
+        let mut seen = std::collections::BTreeSet::from([seed]);
+        let mut front = VecDeque::from([seed]);
+        while let Some(t) = front.pop_front() {
+            for next in self.across[t].into_iter().filter(|&n| n != NONE).map(|n| n as usize) {
+                if belongs(next) && seen.insert(next) {
+                    region.push(next);
+                    front.push_back(next);
+                }
+            }
+        }
+        region
+    }
+
+    /// Measures a region and decides whether it is a cap. `None` when it has no border at all.
+    fn judge(&self, triangles: &[usize], tree: &WindingTree) -> Option<(Opening, FlatRegion)> {
+        let own: Vec<[u32; 3]> = triangles.iter().map(|&t| self.surface.triangles[t]).collect();
+        let edges = Edges::new(&own);
+        let mut loops = loops::chain(&edges.border());
+        let one_border = loops.len() == 1;
+        loops.sort_by_key(Vec::len);
+        let points: Vec<DVec3> = loops.pop()?.iter().map(|&v| self.surface.vertices[v as usize]).collect();
+        let opening = Opening::from_loop(&points)?;
+        let circularity =
+            4.0 * std::f64::consts::PI * opening.area / polygon::perimeter(&opening.polygon).powi(2);
+        let border_angle = self.border_angle(triangles, &edges, opening.normal);
+        let rejected = if circularity < MIN_CIRCULARITY {
+            Some(Rejection::NotRound)
+        } else if !one_border {
+            Some(Rejection::SeveralBorders)
+        } else if !CORNER_DEGREES.contains(&border_angle.to_degrees()) {
+            Some(Rejection::NoCorner)
+        } else if !ends_a_tube(&opening, tree) {
+            Some(Rejection::NoTubeBehind)
+        } else {
+            None
+        };
+        let region = FlatRegion {
+            center: opening.center,
+            normal: opening.normal,
+            area: opening.area,
+            circularity,
+            border_angle,
+            rejected,
+        };
+        Some((opening, region))
+    }
+
+    /// Mean angle between `normal` and the triangles just outside the region, weighted by border length.
+    fn border_angle(&self, triangles: &[usize], edges: &Edges, normal: DVec3) -> f64 {
+        let (mut length, mut sum) = (0.0, 0.0);
+        for group in edges.groups() {
+            let [side] = group else { continue };
+            let t = triangles[side.triangle as usize];
+            let outside = self.across[t][side.corner as usize];
+            if outside == NONE {
+                continue;
+            }
+            let [a, b] = side.directed().map(|v| self.surface.vertices[v as usize]);
+            let l = a.distance(b);
+            length += l;
+            sum += l * self.surface.triangle_normal(outside as usize).angle_between(normal);
+        }
+        if length > 0.0 { sum / length } else { 0.0 }
+    }
+}
+
+/// Whether the lumen lies behind a cap and nothing in front of it, half a radius away from its plane.
+fn ends_a_tube(opening: &Opening, tree: &WindingTree) -> bool {
+    let half = 0.5 * opening.radius;
+    let failed = (0..SAMPLES)
+        .filter(|&i| {
+            let angle = i as f64 * std::f64::consts::TAU / SAMPLES as f64;
+            let lateral = half * (angle.cos() * opening.axes[0] + angle.sin() * opening.axes[1]);
+            let behind = opening.center + lateral - half * opening.normal;
+            let before = opening.center + lateral + half * opening.normal;
+            !tree.contains(behind) || tree.contains(before)
+        })
+        .count();
+    failed <= MAX_FAILED_SAMPLES
+}

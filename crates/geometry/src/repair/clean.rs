@@ -1,0 +1,214 @@
+//! Triangles without area and triangles given more than once.
+
+use std::collections::BTreeMap;
+
+use super::edges::{Edges, NONE};
+use crate::surface::Surface;
+
+/// A triangle below this part of the squared diagonal has no area to speak of. Relative, because an
+/// absolute limit would take all triangles of a file in metres.
+const NO_AREA: f64 = 1e-12;
+/// Bound on the rounds of [`flip_slivers`]; one is enough unless slivers lie side by side.
+const MAX_FLIP_ROUNDS: usize = 8;
+
+/// How many triangles went, and why.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Cleaned {
+    /// Triangles with two equal corners, or three in a line that belong to no closed sheet.
+    pub(crate) degenerate: usize,
+    /// Triangles given more than once, or folded flat onto each other.
+    pub(crate) duplicate: usize,
+}
+
+/// Drops degenerate and duplicate triangles.
+pub(crate) fn clean(surface: &mut Surface) -> Cleaned {
+    let before = surface.triangles.len();
+    surface.triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
+    let distinct = surface.triangles.len();
+    drop_duplicates(&mut surface.triangles);
+    let single = surface.triangles.len();
+    drop_loose_slivers(surface);
+    let left = surface.triangles.len();
+    surface.drop_unused_vertices();
+    Cleaned { degenerate: before - distinct + single - left, duplicate: distinct - single }
+}
+
+/// Of triangles with the same three corners keeps one, or none where the surface closes without.
+///
+/// A triangle stored twice leaves three sides at each of its edges, and one copy has to stay. Two
+/// triangles folded onto each other (by welding a thin one) leave four, and both have to go.
+fn drop_duplicates(triangles: &mut Vec<[u32; 3]>) {
+    let sorted = |mut t: [u32; 3]| {
+        t.sort_unstable();
+        t
+    };
+    let mut copies: BTreeMap<[u32; 3], Vec<usize>> = BTreeMap::new();
+    for (t, &corners) in triangles.iter().enumerate() {
+        copies.entry(sorted(corners)).or_default().push(t);
+    }
+    let mut sides_at: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    let edges_of = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [a, c]];
+    for (&corners, same) in &copies {
+        for edge in edges_of(corners) {
+            *sides_at.entry(edge).or_default() += same.len();
+        }
+    }
+    let mut keep = vec![true; triangles.len()];
+    for (&corners, same) in copies.iter().filter(|(_, same)| same.len() > 1) {
+        let wanted = edges_of(corners).iter().filter(|&e| (sides_at[e] - same.len()) % 2 == 1).count() >= 2
+            || same.iter().skip(1).all(|&t| same_sense(triangles[same[0]], triangles[t]));
+        for &t in &same[usize::from(wanted)..] {
+            keep[t] = false;
+        }
+    }
+    let mut keep = keep.into_iter();
+    triangles.retain(|_| keep.next().unwrap_or(true));
+}
+
+/// Whether two triangles with the same corners run around them the same way.
+fn same_sense([a, b, c]: [u32; 3], other: [u32; 3]) -> bool {
+    [[a, b, c], [b, c, a], [c, a, b]].contains(&other)
+}
+
+/// Whether triangle `t` spans no area, given the squared diagonal of the surface.
+fn has_no_area(surface: &Surface, t: usize, diagonal_squared: f64) -> bool {
+    surface.triangle_area(t) < NO_AREA * diagonal_squared
+}
+
+/// Drops triangles without area that lie loosely on the surface.
+///
+/// One whose three edges all have exactly two sides is a stitch of a closed sheet: without it the sheet
+/// would have a slit. Those stay, and [`flip_slivers`] gives them a shape.
+fn drop_loose_slivers(surface: &mut Surface) {
+    let limit = surface.diagonal().powi(2);
+    let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
+    let keep: Vec<bool> = (0..surface.triangles.len())
+        .map(|t| !has_no_area(surface, t, limit) || !across[t].contains(&NONE))
+        .collect();
+    let mut keep = keep.into_iter();
+    surface.triangles.retain(|_| keep.next().unwrap_or(true));
+}
+
+/// Gives triangles without area a shape by exchanging their longest side for the other diagonal of the
+/// quadrilateral with the neighbour there. The surface must be oriented. Returns the number of exchanges.
+pub(crate) fn flip_slivers(surface: &mut Surface) -> usize {
+    let limit = surface.diagonal().powi(2);
+    let mut flipped = 0;
+    // An exchange may hand the missing area on to the neighbour, so a chain of slivers takes some rounds.
+    for _ in 0..MAX_FLIP_ROUNDS {
+        let slivers: Vec<usize> =
+            (0..surface.triangles.len()).filter(|&t| has_no_area(surface, t, limit)).collect();
+        if slivers.is_empty() {
+            break;
+        }
+        let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
+        let mut touched = vec![false; surface.triangles.len()];
+        let before = flipped;
+        for t in slivers {
+            flipped += usize::from(flip(surface, t, &across, &mut touched));
+        }
+        if flipped == before {
+            break;
+        }
+    }
+    flipped
+}
+
+/// Exchanges the longest side of triangle `t`; false where that cannot be done, or not in this round because
+/// `across` is out of date for one of the two triangles.
+fn flip(surface: &mut Surface, t: usize, across: &[[u32; 3]], touched: &mut [bool]) -> bool {
+    let corners = surface.triangles[t];
+    let place = corners.map(|v| surface.vertices[v as usize]);
+    let length = |k: usize| place[k].distance(place[(k + 1) % 3]);
+    let longest = (0..3).max_by(|&i, &j| length(i).total_cmp(&length(j))).unwrap_or(0);
+    let other = across[t][longest];
+    if other == NONE || touched[t] || touched[other as usize] {
+        return false;
+    }
+    let [a, b, apex] = [0, 1, 2].map(|k| corners[(longest + k) % 3]);
+    let Some(&far) = surface.triangles[other as usize].iter().find(|&&v| v != a && v != b) else {
+        return false;
+    };
+    let joined = |t: &[u32; 3]| t.contains(&apex) && t.contains(&far);
+    // A diagonal that exists already would become an edge of four triangles.
+    if far == apex || surface.triangles.iter().any(joined) {
+        return false;
+    }
+    for changed in [t, other as usize] {
+        touched[changed] = true;
+        for near in across[changed].into_iter().filter(|&n| n != NONE) {
+            touched[near as usize] = true;
+        }
+    }
+    surface.triangles[t] = [a, far, apex];
+    surface.triangles[other as usize] = [far, b, apex];
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::repair::edges::Edges;
+
+    /// An octahedron, closed and outward.
+    fn octahedron() -> Surface {
+        Surface {
+            vertices: vec![DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z],
+            triangles: vec![
+                [0, 1, 2],
+                [1, 3, 2],
+                [3, 4, 2],
+                [4, 0, 2],
+                [1, 0, 5],
+                [3, 1, 5],
+                [4, 3, 5],
+                [0, 4, 5],
+            ],
+        }
+    }
+
+    #[test]
+    fn copies_go_whatever_their_sense() {
+        let clean_one = octahedron();
+        let mut s = octahedron();
+        s.triangles.extend([[0, 1, 2], [2, 3, 1], [5, 3, 4]]);
+        assert_eq!(clean(&mut s), Cleaned { degenerate: 0, duplicate: 3 });
+        assert_eq!(s, clean_one);
+    }
+
+    #[test]
+    fn a_folded_pair_goes_altogether() {
+        let mut s = octahedron();
+        s.vertices.push(DVec3::new(1.0, 1.0, 1.0));
+        s.triangles.extend([[0, 1, 6], [1, 0, 6]]);
+        assert_eq!(clean(&mut s).duplicate, 2);
+        assert_eq!(s, octahedron());
+    }
+
+    #[test]
+    fn a_loose_sliver_goes() {
+        let mut s = octahedron();
+        s.vertices.push(0.5 * (DVec3::X + DVec3::Y));
+        s.triangles.extend([[0, 6, 1], [3, 3, 1]]);
+        assert_eq!(clean(&mut s), Cleaned { degenerate: 2, duplicate: 0 });
+        assert_eq!(s, octahedron());
+    }
+
+    #[test]
+    fn a_stitched_sliver_is_given_a_shape() {
+        let mut s = octahedron();
+        // Vertex 6 amid edge 0-1: triangle 0 is split there, triangle 4 is not; a sliver stitches them.
+        s.vertices.push(0.5 * (DVec3::X + DVec3::Y));
+        s.triangles[0] = [0, 6, 2];
+        s.triangles.extend([[6, 1, 2], [0, 1, 6]]);
+        assert!(Edges::new(&s.triangles).is_closed_and_oriented());
+        let volume = s.volume();
+        assert_eq!(clean(&mut s), Cleaned::default());
+        assert_eq!(flip_slivers(&mut s), 1);
+        assert!(Edges::new(&s.triangles).is_closed_and_oriented());
+        assert!((s.volume() - volume).abs() < 1e-15);
+        assert!((0..s.triangles.len()).all(|t| s.triangle_area(t) > 0.1));
+    }
+}

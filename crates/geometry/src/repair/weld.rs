@@ -1,0 +1,144 @@
+//! Vertices at the same place become one.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::edges::Edges;
+use crate::surface::Surface;
+
+/// Gap between vertices taken as one, as part of the diagonal of the bounding box.
+const RELATIVE_TOLERANCE: f64 = 1e-5;
+/// The same as part of the short edges (5th percentile), whichever is smaller: welding must not eat edges.
+const EDGE_TOLERANCE: f64 = 0.1;
+
+/// How many vertices each of the two passes joined.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Welded {
+    /// Vertices joined to one at exactly the same place.
+    pub(crate) exact: usize,
+    /// Vertices joined to one within the tolerance.
+    pub(crate) close: usize,
+    /// That tolerance, in the unit of the surface.
+    pub(crate) tolerance: f64,
+}
+
+/// Joins vertices: first those that coincide exactly, then those of the border that are close.
+///
+/// Only where the exact pass leaves a border can a gap be meant to be closed, so vertices inside a sheet
+/// keep their place and a clean surface comes out as it went in.
+pub(crate) fn weld(surface: &mut Surface) -> Welded {
+    let exact = merge(surface, |vertices| exact_representatives(vertices));
+    let tolerance = tolerance(surface);
+    let mut at_border = vec![false; surface.vertices.len()];
+    for v in Edges::new(&surface.triangles).border().into_iter().flatten() {
+        at_border[v as usize] = true;
+    }
+    let close = merge(surface, |vertices| close_representatives(vertices, &at_border, tolerance));
+    Welded { exact, close, tolerance }
+}
+
+/// Replaces vertices by their representatives; returns how many went.
+fn merge(surface: &mut Surface, representatives: impl Fn(&[DVec3]) -> Vec<u32>) -> usize {
+    let of = representatives(&surface.vertices);
+    let before = surface.vertices.len();
+    for v in surface.triangles.iter_mut().flatten() {
+        *v = of[*v as usize];
+    }
+    surface.drop_unused_vertices();
+    before - surface.vertices.len()
+}
+
+/// For each vertex the first one at exactly the same place.
+fn exact_representatives(vertices: &[DVec3]) -> Vec<u32> {
+    // Adding zero turns -0 into +0, which are the same place.
+    let key = |v: u32| (vertices[v as usize] + DVec3::ZERO).to_array().map(f64::to_bits);
+    let mut order: Vec<u32> = (0..vertices.len() as u32).collect();
+    order.sort_by_key(|&v| key(v));
+    let mut of = vec![0; vertices.len()];
+    for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        for &v in same {
+            of[v as usize] = same[0];
+        }
+    }
+    of
+}
+
+/// For each marked vertex the first marked one kept within `tolerance`, else itself.
+fn close_representatives(vertices: &[DVec3], marked: &[bool], tolerance: f64) -> Vec<u32> {
+    let mut of: Vec<u32> = (0..vertices.len() as u32).collect();
+    if tolerance <= 0.0 {
+        return of;
+    }
+    let cell = |v: DVec3| (v / tolerance).floor().to_array().map(|c| c as i64);
+    let mut kept: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
+    for v in (0..vertices.len()).filter(|&v| marked[v]) {
+        let [x, y, z] = cell(vertices[v]);
+        // Rounding alone would miss pairs on both sides of a cell face: look into all 27 cells.
+        let found = (-1..=1)
+            .flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])))
+            .filter_map(|near| kept.get(&near))
+            .flatten()
+            .filter(|&&k| vertices[k as usize].distance(vertices[v]) <= tolerance)
+            .min();
+        match found {
+            Some(&representative) => of[v] = representative,
+            None => kept.entry([x, y, z]).or_default().push(v as u32),
+        }
+    }
+    of
+}
+
+/// The largest gap taken for a rounding error.
+fn tolerance(surface: &Surface) -> f64 {
+    let mut lengths: Vec<f64> = (0..surface.triangles.len())
+        .flat_map(|t| {
+            let [a, b, c] = surface.triangle(t);
+            [a.distance(b), b.distance(c), c.distance(a)]
+        })
+        .collect();
+    if lengths.is_empty() {
+        return 0.0;
+    }
+    let fifth_percentile = lengths.len() / 20;
+    let (_, short, _) = lengths.select_nth_unstable_by(fifth_percentile, f64::total_cmp);
+    (RELATIVE_TOLERANCE * surface.diagonal()).min(EDGE_TOLERANCE * *short)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles of a unit square, unconnected, the second moved by `gap`.
+    fn loose_square(gap: f64) -> Surface {
+        let e = DVec3::splat(gap);
+        Surface {
+            vertices: vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, e, DVec3::X + DVec3::Y + e, DVec3::Y],
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+        }
+    }
+
+    #[test]
+    fn equal_places_join() {
+        let mut s = loose_square(0.0);
+        assert_eq!(weld(&mut s).exact, 2);
+        assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn close_places_join_and_distant_ones_do_not() {
+        let mut s = loose_square(1e-6);
+        let welded = weld(&mut s);
+        assert_eq!((welded.exact, welded.close), (0, 2));
+        let mut apart = loose_square(1e-4);
+        assert_eq!(weld(&mut apart).close, 0);
+        assert_eq!(apart.vertices.len(), 6);
+    }
+
+    #[test]
+    fn minus_zero_is_zero() {
+        let mut s = loose_square(0.0);
+        s.vertices[3] = -s.vertices[0];
+        assert_eq!(weld(&mut s).exact, 2);
+    }
+}
