@@ -1,1 +1,9 @@
-//! Inlets and outlets through bidirectional buffers.
+#![doc = include_str!("../README.md")]
+
+pub mod buffer;
+pub mod profile;
+pub mod waveform;
+
+pub use buffer::{BUFFER_LENGTH, Condition, Counters, Openings, Port, Reading};
+pub use profile::Profile;
+pub use waveform::{Signal, Source, Waveform, WaveformError};

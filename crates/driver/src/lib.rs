@@ -1,1 +1,7 @@
-//! The vaso binary: composition of all crates.
+#![doc = include_str!("../README.md")]
+
+pub mod flow;
+pub mod ledger;
+
+pub use flow::{Diverged, Flow, Watch};
+pub use ledger::{Ledger, Stage};

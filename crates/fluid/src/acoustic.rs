@@ -22,6 +22,11 @@ impl<R: Real> Fluid<R> {
         maximum(self.state.len(), |i| self.state.velocity[i].length_squared()).sqrt()
     }
 
+    /// Largest deviation of the density from rest, relative; NaN if any is.
+    pub fn top_density_error(&self) -> f64 {
+        maximum(self.state.len(), |i| self.state.density_change[i].abs()) / self.numbers.rest_density
+    }
+
     /// First half of an acoustic step `dt` \[s\]: density and position to the middle, pressure from the density.
     pub fn begin_acoustic(&mut self, dt: f64) {
         let numbers = self.numbers;

@@ -16,3 +16,4 @@ pub use fluid::Fluid;
 pub use numbers::Numbers;
 pub use state::FluidState;
 pub use transport::Guarded;
+pub use vaso_kernels::{Isa, Real};

@@ -1,0 +1,214 @@
+//! The loop nest of a rigid-wall flow: advective step around acoustic steps.
+
+use crate::ledger::{Ledger, Stage};
+use glam::DVec3;
+use vaso_boundary::{Openings, Reading};
+use vaso_fluid::{Fluid, Real};
+use vaso_particles::visit;
+
+/// A run that cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Diverged {
+    /// A value is no longer a number.
+    #[error(
+        "{column} [{unit}] of particle {id} at ({:.6}, {:.6}, {:.6}) m is not finite after step {step} at {time:.6e} s",
+        position.x, position.y, position.z
+    )]
+    NonFinite {
+        /// Column of the value.
+        column: &'static str,
+        /// Its unit.
+        unit: &'static str,
+        /// Identity of the particle.
+        id: u64,
+        /// Its position \[m\].
+        position: DVec3,
+        /// Advective step.
+        step: u64,
+        /// Simulated time \[s\].
+        time: f64,
+    },
+    /// The flow is too fast for the sound speed.
+    #[error(
+        "particle {id} at ({:.6}, {:.6}, {:.6}) m moves at {speed:.3} m/s, more than a fifth of the sound speed of \
+         {sound_speed:.3} m/s, at {time:.6e} s; raise `numerics.sound_speed` or set `numerics.allow_mach = true`",
+        position.x, position.y, position.z
+    )]
+    TooFast {
+        /// Identity of the particle.
+        id: u64,
+        /// Its position \[m\].
+        position: DVec3,
+        /// Its speed \[m/s\].
+        speed: f64,
+        /// Sound speed \[m/s\].
+        sound_speed: f64,
+        /// Simulated time \[s\].
+        time: f64,
+    },
+    /// All fluid is gone.
+    #[error("no fluid particle is left at {time:.6e} s")]
+    Empty {
+        /// Simulated time \[s\].
+        time: f64,
+    },
+}
+
+/// What the guards saw so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Watch {
+    /// Largest density deviation after the ramp, relative.
+    pub max_density_error: f64,
+    /// Largest speed over sound speed.
+    pub max_mach: f64,
+    /// Particles that left through the wall.
+    pub escaped: u64,
+    /// Particles put back at the wall.
+    pub returned: u64,
+    /// Values that were not finite.
+    pub non_finite: u64,
+}
+
+/// A flow in time.
+pub struct Flow<R> {
+    /// The blood.
+    pub fluid: Fluid<R>,
+    /// Its openings.
+    pub openings: Openings,
+    /// Simulated time \[s\].
+    pub time: f64,
+    /// Advective steps taken.
+    pub advective_steps: u64,
+    /// Acoustic steps taken.
+    pub acoustic_steps: u64,
+    /// Sum over acoustic steps of the number of fluid particles.
+    pub particle_substeps: u64,
+    /// What the guards saw.
+    pub watch: Watch,
+    /// Time per stage.
+    pub ledger: Ledger,
+    /// Speeds beyond a fifth of the sound speed are let pass.
+    pub allow_mach: bool,
+    /// Mean state of the openings after the last step.
+    pub readings: Vec<Reading>,
+}
+
+/// Mach number at which a run stops, unless it is allowed.
+const MAX_MACH: f64 = 0.2;
+
+impl<R: Real> Flow<R> {
+    /// Flow that starts from the state of `fluid`.
+    pub fn new(mut fluid: Fluid<R>, mut openings: Openings, allow_mach: bool) -> Self {
+        openings.start(&mut fluid.state);
+        let readings = vec![Reading::default(); openings.ports().len()];
+        Self {
+            fluid,
+            openings,
+            time: 0.0,
+            advective_steps: 0,
+            acoustic_steps: 0,
+            particle_substeps: 0,
+            watch: Watch::default(),
+            ledger: Ledger::default(),
+            allow_mach,
+            readings,
+        }
+    }
+
+    /// Takes one advective step, no further than to `until` \[s\].
+    ///
+    /// # Errors
+    /// When a value is not finite, the flow too fast or the vessel empty; the state is then that of
+    /// the step in which it showed.
+    pub fn step(&mut self, until: f64) -> Result<(), Diverged> {
+        let Self { fluid, openings, ledger, .. } = self;
+        if self.advective_steps > 0 {
+            ledger.time(Stage::Exchange, || openings.exchange(&mut fluid.state, self.time));
+        }
+        if fluid.state.is_empty() {
+            return Err(Diverged::Empty { time: self.time });
+        }
+        ledger.time(Stage::Exchange, || {
+            fluid.sort();
+            openings.locate(&fluid.state);
+        });
+        ledger.time(Stage::Rows, || fluid.search(openings.zones()));
+        ledger.time(Stage::Summation, || fluid.summation(openings.zones()));
+        ledger.time(Stage::Viscosity, || fluid.viscosity());
+        let duration = fluid.advective_step().min(until - self.time);
+
+        let mut elapsed = 0.0;
+        let mut dt = fluid.numbers().acoustic_step(fluid.top_speed()).min(duration);
+        ledger.time(Stage::Momentum, || fluid.begin_acoustic(dt));
+        loop {
+            ledger.time(Stage::WallPressure, || fluid.wall_pressure());
+            let inner = ledger.time(Stage::Momentum, || fluid.kick(dt));
+            let end = self.time + elapsed + dt;
+            let near = ledger.time(Stage::Openings, || openings.apply(fluid, end, dt));
+            elapsed += dt;
+            self.acoustic_steps += 1;
+            self.particle_substeps += fluid.state.len() as u64;
+            // A remainder below rounding is no step of its own.
+            let left = duration - elapsed;
+            let next = fluid.numbers().acoustic_step(inner.max(near)).min(left);
+            let goes_on = left > 1e-9 * duration;
+            ledger.time(Stage::Continuity, || fluid.continuity(dt, goes_on.then_some(next)));
+            if !goes_on {
+                break;
+            }
+            dt = next;
+        }
+        self.time = if until - (self.time + duration) < 1e-9 * duration { until } else { self.time + duration };
+        self.advective_steps += 1;
+        ledger.time(Stage::Transport, || fluid.transport(openings.zones()));
+        ledger.time(Stage::Guard, || self.readings = openings.measure(&fluid.state, self.time));
+        self.guard()
+    }
+
+    /// Puts back what touches the wall, drops what has left through it, and checks the state.
+    fn guard(&mut self) -> Result<(), Diverged> {
+        let start = std::time::Instant::now();
+        let fluid = &mut self.fluid;
+        let sound_speed = fluid.numbers().sound_speed;
+        let speed = fluid.top_speed();
+        let density = fluid.top_density_error();
+        if !(speed.is_finite() && density.is_finite()) {
+            self.watch.non_finite += 1;
+            if let Some(bad) = visit::first_non_finite(&mut fluid.state) {
+                return Err(Diverged::NonFinite {
+                    column: bad.column,
+                    unit: bad.unit,
+                    id: fluid.state.id[bad.particle],
+                    position: fluid.state.position[bad.particle],
+                    step: self.advective_steps,
+                    time: self.time,
+                });
+            }
+        }
+        self.watch.max_mach = self.watch.max_mach.max(speed / sound_speed);
+        self.watch.max_density_error = self.watch.max_density_error.max(density);
+        let guarded = fluid.guard();
+        self.watch.returned += guarded.returned as u64;
+        self.watch.escaped += guarded.lost.len() as u64;
+        for &i in &guarded.lost {
+            visit::swap_remove(&mut fluid.state, i);
+        }
+        self.ledger.add(Stage::Guard, start.elapsed());
+        if speed > MAX_MACH * sound_speed && !self.allow_mach {
+            let state = &self.fluid.state;
+            let fastest = (0..state.len())
+                .max_by(|&a, &b| state.velocity[a].length_squared().total_cmp(&state.velocity[b].length_squared()));
+            if let Some(i) = fastest {
+                return Err(Diverged::TooFast {
+                    id: state.id[i],
+                    position: state.position[i],
+                    speed,
+                    sound_speed,
+                    time: self.time,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,95 @@
+//! What each effect cost: time, calls and bytes.
+
+use std::time::{Duration, Instant};
+
+/// Parts of a run that are timed on their own; effects are made of one or several of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Particles through openings, labels, cell order.
+    Exchange,
+    /// Neighbour rows and wall distance.
+    Rows,
+    /// Density summation and correction matrices.
+    Summation,
+    /// Viscosity and velocity gradients.
+    Viscosity,
+    /// Pressure of the wall particles.
+    WallPressure,
+    /// Momentum half of the acoustic step.
+    Momentum,
+    /// Conditions at the openings.
+    Openings,
+    /// Continuity half of the acoustic step.
+    Continuity,
+    /// Transport-velocity shift and wall guard.
+    Transport,
+    /// Checks and measurements.
+    Guard,
+    /// Files.
+    Output,
+}
+
+impl Stage {
+    /// All stages in the order of a step.
+    pub const ALL: [Self; 11] = [
+        Self::Exchange,
+        Self::Rows,
+        Self::Summation,
+        Self::Viscosity,
+        Self::WallPressure,
+        Self::Momentum,
+        Self::Openings,
+        Self::Continuity,
+        Self::Transport,
+        Self::Guard,
+        Self::Output,
+    ];
+
+    /// Name as the plan and the summary print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exchange => "openings.exchange",
+            Self::Rows => "blood.rows",
+            Self::Summation => "blood.summation",
+            Self::Viscosity => "blood.viscosity",
+            Self::WallPressure => "wall.pressure",
+            Self::Momentum => "blood.momentum",
+            Self::Openings => "openings.impose",
+            Self::Continuity => "blood.continuity",
+            Self::Transport => "blood.transport",
+            Self::Guard => "guard",
+            Self::Output => "output",
+        }
+    }
+}
+
+/// Time spent per stage.
+#[derive(Clone, Debug, Default)]
+pub struct Ledger {
+    spent: [Duration; Stage::ALL.len()],
+}
+
+impl Ledger {
+    /// Runs `work` and books its time to `stage`.
+    pub fn time<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = work();
+        self.spent[stage as usize] += start.elapsed();
+        result
+    }
+
+    /// Books time to `stage`.
+    pub fn add(&mut self, stage: Stage, spent: Duration) {
+        self.spent[stage as usize] += spent;
+    }
+
+    /// Time booked to a stage \[s\].
+    pub fn seconds(&self, stage: Stage) -> f64 {
+        self.spent[stage as usize].as_secs_f64()
+    }
+
+    /// Time booked in all \[s\].
+    pub fn total(&self) -> f64 {
+        self.spent.iter().map(Duration::as_secs_f64).sum()
+    }
+}
