@@ -1,7 +1,7 @@
 //! Results worth keeping between runs, such as relaxed particles, found again by what they were made from.
 
+use crate::IoError;
 use crate::archive::{Archive, hex};
-use crate::{IoError, atomic};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
@@ -104,11 +104,6 @@ impl Cache {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
-
-    /// Forgets one result.
-    pub fn forget(&self, key: &CacheKey, kind: &str) {
-        atomic::remove_if_present(&self.path(key, kind));
-    }
 }
 
 const KEY: &str = "cache.key";
@@ -169,7 +164,5 @@ mod tests {
         assert!(cache.load(&key(5e-4), "particles", 1).is_none());
         cache.store(&key(5e-4), &result()).unwrap();
         assert!(cache.load(&key(5e-4), "particles", 1).is_some());
-        cache.forget(&key(5e-4), "particles");
-        assert!(cache.load(&key(5e-4), "particles", 1).is_none());
     }
 }

@@ -30,7 +30,9 @@ pub enum IoError {
         message: String,
     },
     /// A JSON file does not hold what its name promises.
-    #[error("cannot read {path:?}: {source}; the file is written by the program: restore it or repeat the run")]
+    #[error(
+        "cannot read {path:?}: {source}; the file is written by the program: restore it or repeat the run"
+    )]
     Json {
         /// File concerned.
         path: PathBuf,
@@ -64,7 +66,9 @@ pub enum IoError {
         what: String,
     },
     /// A table line cannot be read.
-    #[error("{path:?} line {line}: {what}; columns are numbers separated by commas, the first line names them")]
+    #[error(
+        "{path:?} line {line}: {what}; columns are numbers separated by commas, the first line names them"
+    )]
     Table {
         /// File concerned.
         path: PathBuf,
@@ -74,7 +78,9 @@ pub enum IoError {
         what: String,
     },
     /// The output folder holds a finished run.
-    #[error("{path:?} holds a finished run; pass `--force` to write over it or choose another folder with `--out`")]
+    #[error(
+        "{path:?} holds a finished run; pass `--force` to write over it or choose another folder with `--out`"
+    )]
     Finished {
         /// Output folder.
         path: PathBuf,

@@ -7,8 +7,8 @@ use std::path::Path;
 
 /// Writes `value` as indented JSON, whole or not at all.
 pub(crate) fn write<T: Serialize>(path: &Path, value: &T) -> Result<(), IoError> {
-    let mut text = serde_json::to_vec_pretty(value)
-        .map_err(|source| IoError::Json { path: path.to_owned(), source })?;
+    let mut text =
+        serde_json::to_vec_pretty(value).map_err(|source| IoError::Json { path: path.to_owned(), source })?;
     text.push(b'\n');
     atomic::write(path, &text)
 }

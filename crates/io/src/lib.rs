@@ -6,6 +6,8 @@ mod cache;
 mod error;
 mod hdf5;
 mod json;
+mod output;
+pub mod particles;
 pub mod schema;
 mod series;
 mod summary;
@@ -14,9 +16,10 @@ mod table;
 pub use archive::Archive;
 pub use cache::{Cache, CacheKey, KeyBuilder};
 pub use error::IoError;
+pub use output::OutputDir;
 pub use series::{FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, read_series_info};
 pub use summary::{
-    CheckReport, EffectEntry, Numbers, OpeningEntry, OpeningSummary, ParticleCounts, ParticlesReport, Predicted,
-    Quality, Stability, Status, StepCounts, Summary, SurfaceReport,
+    CheckReport, EffectEntry, Numbers, OpeningEntry, OpeningSummary, ParticleCounts, ParticlesReport,
+    Predicted, Quality, Stability, Status, StepCounts, Summary, SurfaceReport,
 };
 pub use table::{Table, TableData, read_table};

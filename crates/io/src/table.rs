@@ -112,9 +112,8 @@ pub fn read_table(path: &Path) -> Result<TableData, IoError> {
     }
     let mut rows = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(|error| {
-            wrong(error.position().map_or(0, csv::Position::line), error.to_string())
-        })?;
+        let record = record
+            .map_err(|error| wrong(error.position().map_or(0, csv::Position::line), error.to_string()))?;
         let number = record.position().map_or(0, csv::Position::line);
         let row = record.iter().map(|cell| match cell {
             "" => Ok(f64::NAN),
@@ -133,9 +132,7 @@ fn line(cells: &[String], path: &Path) -> Result<Vec<u8>, IoError> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let failed = |error: csv::Error| IoError::Mismatch { path: path.to_owned(), what: error.to_string() };
     writer.write_record(cells).map_err(failed)?;
-    writer
-        .into_inner()
-        .map_err(|error| IoError::Mismatch { path: path.to_owned(), what: error.to_string() })
+    writer.into_inner().map_err(|error| IoError::Mismatch { path: path.to_owned(), what: error.to_string() })
 }
 
 /// Shortest digits that give the same bits back, with an exponent where plain digits would be long.

@@ -19,14 +19,12 @@ pub(crate) use c::{Reader, Writer};
 #[cfg(not(feature = "hdf5-c"))]
 pub(crate) use pure::{Reader, Writer};
 
-/// Type of one number in a dataset; little-endian on disk.
+/// Type of one number in a growing dataset; little-endian on disk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Element {
     F32,
     F64,
     I64,
-    U64,
-    U8,
 }
 
 /// Numbers to be written, rows one after the other.
@@ -40,16 +38,6 @@ pub(crate) enum Values<'a> {
 }
 
 impl Values<'_> {
-    pub(crate) fn element(&self) -> Element {
-        match self {
-            Self::F32(_) => Element::F32,
-            Self::F64(_) => Element::F64,
-            Self::I64(_) => Element::I64,
-            Self::U64(_) => Element::U64,
-            Self::U8(_) => Element::U8,
-        }
-    }
-
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::F32(v) => v.len(),
@@ -58,6 +46,10 @@ impl Values<'_> {
             Self::U64(v) => v.len(),
             Self::U8(v) => v.len(),
         }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.len() == 0
     }
 }
 
@@ -103,8 +95,6 @@ pub(crate) trait Read: Sized {
     fn text(&self, group: &str, name: &str) -> Outcome<String>;
     /// Names of the datasets directly in a group, in order of name.
     fn datasets(&self, group: &str) -> Outcome<Vec<String>>;
-    /// Names of the groups directly in a group, in order of name.
-    fn groups(&self, group: &str) -> Outcome<Vec<String>>;
     /// Number of rows and of columns (1 for a list).
     fn shape(&self, path: &str) -> Outcome<(usize, usize)>;
     /// `count` rows from `start` on.

@@ -90,14 +90,12 @@ impl Write for Writer {
             Element::F32 => self.create_dataset::<f32>(path, &dimensions, chunk),
             Element::F64 => self.create_dataset::<f64>(path, &dimensions, chunk),
             Element::I64 => self.create_dataset::<i64>(path, &dimensions, chunk),
-            Element::U64 => self.create_dataset::<u64>(path, &dimensions, chunk),
-            Element::U8 => self.create_dataset::<u8>(path, &dimensions, chunk),
         }
         .map(drop)
     }
 
     fn extend(&self, path: &str, values: Values<'_>) -> Outcome<()> {
-        if values.len() == 0 {
+        if values.is_empty() {
             return Ok(());
         }
         let dataset = self.0.dataset_writer(path).map_err(words)?;
@@ -145,12 +143,6 @@ impl Read for Reader {
 
     fn datasets(&self, group: &str) -> Outcome<Vec<String>> {
         let mut names = group_of(&self.0, group)?.dataset_names().map_err(words)?;
-        names.sort();
-        Ok(names)
-    }
-
-    fn groups(&self, group: &str) -> Outcome<Vec<String>> {
-        let mut names = group_of(&self.0, group)?.group_names().map_err(words)?;
         names.sort();
         Ok(names)
     }

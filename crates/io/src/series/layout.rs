@@ -50,8 +50,7 @@ pub(super) fn field_offsets(name: &str) -> String {
 /// Writes groups, attributes and empty datasets for frames with these fields.
 pub(super) fn skeleton<W: Write>(file: &W, fields: &[Field]) -> Outcome<()> {
     let per_step = |element, columns| Growing { element, columns, chunk: STEP_CHUNK, deflate: None };
-    let per_point =
-        |element, columns| Growing { element, columns, chunk: POINT_CHUNK, deflate: Some(LEVEL) };
+    let per_point = |element, columns| Growing { element, columns, chunk: POINT_CHUNK, deflate: Some(LEVEL) };
 
     file.group(ROOT)?;
     file.text(ROOT, "Type", "PolyData")?;

@@ -64,7 +64,9 @@ impl Column {
     /// Equality of bits, so that a NaN equals itself and zeros of both signs differ.
     fn same_bits(&self, other: &Self) -> bool {
         match (self, other) {
-            (Self::F32(a), Self::F32(b)) => bytemuck::cast_slice::<f32, u8>(a) == bytemuck::cast_slice::<f32, u8>(b),
+            (Self::F32(a), Self::F32(b)) => {
+                bytemuck::cast_slice::<f32, u8>(a) == bytemuck::cast_slice::<f32, u8>(b)
+            }
             (Self::I64(a), Self::I64(b)) => a == b,
             _ => false,
         }
@@ -120,9 +122,8 @@ impl Planner {
             self.field_rows = vec![0; fields.len()];
             self.fields = fields;
         } else if self.fields != fields {
-            let names = |list: &[Field]| {
-                list.iter().map(|field| field.name.clone()).collect::<Vec<_>>().join(", ")
-            };
+            let names =
+                |list: &[Field]| list.iter().map(|field| field.name.clone()).collect::<Vec<_>>().join(", ");
             return Err(format!(
                 "the frame has the fields \"{}\", the frames before it have \"{}\"; they must be the same",
                 names(&fields),
@@ -132,8 +133,12 @@ impl Planner {
 
         let count = frame.position.len() as i64;
         let before = self.previous.take();
-        let points =
-            place(Column::vectors(frame.position), before.as_ref().map(|s| &s.points), &mut self.points_rows, count);
+        let points = place(
+            Column::vectors(frame.position),
+            before.as_ref().map(|s| &s.points),
+            &mut self.points_rows,
+            count,
+        );
         let mut placed = Vec::with_capacity(columns.len());
         for (i, (field, column)) in columns.into_iter().enumerate() {
             let old = before.as_ref().map(|step| &step.fields[i].1);
@@ -142,8 +147,7 @@ impl Planner {
         let connectivity = self.connectivity_rows..count.max(self.connectivity_rows);
         self.connectivity_rows = connectivity.end;
 
-        let step =
-            Step { index: self.steps, time: frame.time, count, points, fields: placed, connectivity };
+        let step = Step { index: self.steps, time: frame.time, count, points, fields: placed, connectivity };
         self.steps += 1;
         self.last_time = Some(frame.time);
         self.previous = Some(step.clone());
@@ -172,11 +176,13 @@ impl Planner {
         let mut columns = Vec::new();
         for (name, values) in &frame.scalars {
             check(name, values.len())?;
-            columns.push((Field { name: name.to_string(), kind: FieldKind::Scalar }, Column::scalars(values)));
+            columns
+                .push((Field { name: name.to_string(), kind: FieldKind::Scalar }, Column::scalars(values)));
         }
         for (name, values) in &frame.vectors {
             check(name, values.len())?;
-            columns.push((Field { name: name.to_string(), kind: FieldKind::Vector }, Column::vectors(values)));
+            columns
+                .push((Field { name: name.to_string(), kind: FieldKind::Vector }, Column::vectors(values)));
         }
         if let Some(ids) = frame.ids {
             check(schema::ID, ids.len())?;

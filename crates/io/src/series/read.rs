@@ -57,7 +57,9 @@ impl SeriesReader {
         let file = Checked::open(path)?;
         let times: Vec<f64> = file.rows(layout::TIMES, 0, file.shape(layout::TIMES)?.0)?;
         // A NaN compares as nothing and so counts as out of order.
-        if let Some(pair) = times.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Less)) {
+        if let Some(pair) =
+            times.windows(2).find(|pair| pair[0].partial_cmp(&pair[1]) != Some(Ordering::Less))
+        {
             return Err(file.damaged(format!("time {} s follows {} s", pair[1], pair[0])));
         }
         let counts = file.list(layout::NUMBER_OF_POINTS, times.len())?;
@@ -167,7 +169,12 @@ impl Checked {
         self.file.datasets(group).map_err(|text| self.failed(text))
     }
 
-    fn rows<T: crate::hdf5::Number>(&self, name: &str, start: usize, count: usize) -> Result<Vec<T>, IoError> {
+    fn rows<T: crate::hdf5::Number>(
+        &self,
+        name: &str,
+        start: usize,
+        count: usize,
+    ) -> Result<Vec<T>, IoError> {
         self.file.rows(name, start, count).map_err(|text| self.failed(text))
     }
 

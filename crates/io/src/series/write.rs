@@ -36,8 +36,7 @@ impl SeriesWriter {
     /// Starts a new series. The file appears with the first frame; one of the same name is then replaced.
     pub fn create(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
-        let writer =
-            Self { path, planner: Planner::default(), hidden: None, turn: 0, public: false };
+        let writer = Self { path, planner: Planner::default(), hidden: None, turn: 0, public: false };
         writer.tidy();
         writer
     }
@@ -45,8 +44,8 @@ impl SeriesWriter {
     /// Goes on with a series: frames later than `time` [s] are dropped, those up to it stay. A missing file
     /// makes a new series.
     ///
-    /// The frames kept are copied into a new file that takes the place of the old one at once, so a run
-    /// resumed from a checkpoint leaves the same frames as an unbroken one.
+    /// The frames kept are copied into a new file that takes the place of the old one at once. A run resumed
+    /// from a checkpoint leaves the same file as an unbroken one, byte for byte.
     ///
     /// # Errors
     /// [`IoError::Hdf5`], [`IoError::Kind`] or [`IoError::Damaged`] when the file is not a series of ours.
@@ -58,33 +57,22 @@ impl SeriesWriter {
         let reader = SeriesReader::open(&writer.path)?;
         let kept = reader.info().times.iter().take_while(|&&t| t <= time).count();
         let draft = atomic::beside(&writer.path, "cut");
-        let copied = (|| {
-            let mut file = None;
-            for index in 0..kept {
-                let frame = reader.frame(index)?;
+        for index in 0..kept {
+            let added = reader.frame(index).and_then(|frame| {
                 let step = writer.planner.plan(&frame.view()).map_err(|what| writer.damaged(what))?;
-                let file = match &file {
-                    Some(file) => file,
-                    None => file.insert(writer.start(&draft, &writer.planner.fields)?),
-                };
-                step.apply(file).map_err(|text| IoError::hdf5(&draft, "write", text))?;
-            }
-            match file {
-                Some(file) => file.close().map_err(|text| IoError::hdf5(&draft, "write", text)),
-                None => Ok(()),
-            }
-        })();
-        drop(reader);
-        match copied {
-            Ok(()) if kept == 0 => atomic::remove_if_present(&writer.path),
-            Ok(()) => {
-                atomic::publish(&draft, &writer.path)?;
-                writer.public = true;
-            }
-            Err(error) => {
+                writer.add(&draft, &step, &writer.planner.fields)
+            });
+            if let Err(error) = added {
                 atomic::remove_if_present(&draft);
                 return Err(error);
             }
+        }
+        drop(reader);
+        if kept == 0 {
+            atomic::remove_if_present(&writer.path);
+        } else {
+            atomic::publish(&draft, &writer.path)?;
+            writer.public = true;
         }
         Ok(writer)
     }
@@ -117,45 +105,43 @@ impl SeriesWriter {
     pub fn append(&mut self, frame: &Frame<'_>) -> Result<(), IoError> {
         // Planned on a copy (the arrays in it are shared): after a failure the writer stands where it stood.
         let mut planner = self.planner.clone();
-        let step =
-            planner.plan(frame).map_err(|what| IoError::Mismatch { path: self.path.clone(), what })?;
-        let (draft, file) = self.open_draft(&planner.fields)?;
-        let written = step.apply(&file).and_then(|()| file.close());
-        if let Err(text) = written {
+        let step = planner.plan(frame).map_err(|what| IoError::Mismatch { path: self.path.clone(), what })?;
+        let draft = self.catch_up(&planner.fields)?;
+        if let Err(error) = self.add(&draft, &step, &planner.fields) {
             atomic::remove_if_present(&draft);
-            return Err(IoError::hdf5(&self.path, "append to", text));
+            return Err(error);
         }
         self.swap(draft, step)?;
         self.planner = planner;
         Ok(())
     }
 
-    /// Opens the hidden copy with all frames but the new one in it.
-    fn open_draft(&mut self, fields: &[Field]) -> Result<(PathBuf, hdf5::Writer), IoError> {
+    /// Brings the hidden copy to the state of the public file, making it anew where that cannot be done.
+    fn catch_up(&mut self, fields: &[Field]) -> Result<PathBuf, IoError> {
         if let Some((path, missing)) = self.hidden.take() {
-            // A reader may still hold this file from the time it was public: then it must not change under it.
-            let opened = hdf5::Writer::append(&path).and_then(|file| missing.apply(&file).map(|()| file));
-            if let Ok(file) = opened {
-                return Ok((path, file));
+            // Fails when a reader holds this file from the time it was public: it must not change under it.
+            if self.add(&path, &missing, fields).is_ok() {
+                return Ok(path);
             }
-            atomic::remove_if_present(&path);
         }
         let draft = self.hidden_name(self.turn);
+        atomic::remove_if_present(&draft);
         if self.public {
             fs::copy(&self.path, &draft).map_err(|source| IoError::system(&self.path, "copy", source))?;
-            let file = hdf5::Writer::append(&draft)
-                .map_err(|text| IoError::hdf5(&self.path, "append to", text))?;
-            Ok((draft, file))
-        } else {
-            let file = self.start(&draft, fields)?;
-            Ok((draft, file))
         }
+        Ok(draft)
     }
 
-    fn start(&self, path: &Path, fields: &[Field]) -> Result<hdf5::Writer, IoError> {
-        hdf5::Writer::create(path)
-            .and_then(|file| layout::skeleton(&file, fields).map(|()| file))
-            .map_err(|text| IoError::hdf5(&self.path, "create", text))
+    /// Adds one step to a file that is not public. Every step gets an opening and closing of its own, so that
+    /// the bytes of a file follow from its steps and not from what happened between them.
+    fn add(&self, path: &Path, step: &Step, fields: &[Field]) -> Result<(), IoError> {
+        let file = if path.exists() {
+            hdf5::Writer::append(path)
+        } else {
+            hdf5::Writer::create(path).and_then(|file| layout::skeleton(&file, fields).map(|()| file))
+        };
+        file.and_then(|file| step.apply(&file).and_then(|()| file.close()))
+            .map_err(|text| IoError::hdf5(&self.path, "append to", text))
     }
 
     /// Gives the draft the public name and keeps the former public file as the next draft.

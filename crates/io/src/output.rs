@@ -1,0 +1,143 @@
+//! The output folder: what may be written over, and what is left alone.
+
+use crate::{IoError, Status, Summary};
+use std::path::{Path, PathBuf};
+
+/// Names a run may leave in its folder. Nothing else is ever removed.
+const OUTPUTS: &[&str] = &[
+    "fluid.vtkhdf",
+    "wall.vtkhdf",
+    "openings.csv",
+    "probes.csv",
+    "report.html",
+    "checkpoint.h5",
+    "failure.vtkhdf",
+    "failure.json",
+    "summary.json",
+];
+
+/// An output folder (`OUT`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputDir {
+    path: PathBuf,
+}
+
+impl OutputDir {
+    /// Makes the folder ready for a new run: creates it if need be, removes what an earlier run of ours left
+    /// so that two runs do not mix, and writes a `summary.json` with the status `running`.
+    ///
+    /// A folder with a finished run is refused unless `force` is given; so is one with files of our names but
+    /// no summary, as they may be somebody's own. Files of other names stay, always.
+    ///
+    /// # Errors
+    /// [`IoError::Finished`], [`IoError::Foreign`], or [`IoError::System`] when the folder cannot be made or
+    /// written. Nothing has been written or removed then.
+    pub fn prepare(path: impl Into<PathBuf>, force: bool) -> Result<Self, IoError> {
+        let output = Self::open(path)?;
+        let summary = output.file("summary.json");
+        match Summary::read(&summary) {
+            Ok(found) if found.status == Status::Completed && !force => {
+                return Err(IoError::Finished { path: output.path });
+            }
+            Ok(_) => {}
+            Err(_) if force => {}
+            Err(_) => {
+                if let Some(file) = OUTPUTS.iter().find(|name| output.file(name).exists()) {
+                    return Err(IoError::Foreign { path: output.path.clone(), file: (*file).to_owned() });
+                }
+            }
+        }
+        // The summary goes last and is replaced, not removed: a kill in between leaves a folder known as ours.
+        for name in OUTPUTS.iter().filter(|name| **name != "summary.json") {
+            let file = output.file(name);
+            if std::fs::symlink_metadata(&file).is_ok_and(|found| found.is_file()) {
+                std::fs::remove_file(&file).map_err(|source| IoError::system(&file, "remove", source))?;
+            }
+        }
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Summary { vaso_version: version, status: Status::Running, ..Summary::default() }.write(&summary)?;
+        Ok(output)
+    }
+
+    /// Takes the folder as it is, to add to it (`vaso particles`, `resume`, `report`); creates it if need be.
+    ///
+    /// # Errors
+    /// [`IoError::System`] when it cannot be made or is not a folder.
+    pub fn open(path: impl Into<PathBuf>) -> Result<Self, IoError> {
+        let path = path.into();
+        std::fs::create_dir_all(&path).map_err(|source| IoError::system(&path, "make the folder", source))?;
+        Ok(Self { path })
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of a file in it.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_finished_run_is_kept_unless_forced() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = OutputDir::prepare(folder.path().join("case/out"), false).unwrap();
+        assert_eq!(Summary::read(&out.file("summary.json")).unwrap().status, Status::Running);
+        Summary { status: Status::Completed, ..Summary::default() }.write(&out.file("summary.json")).unwrap();
+        fs::write(out.file("fluid.vtkhdf"), "frames").unwrap();
+
+        let error = OutputDir::prepare(out.path(), false).unwrap_err();
+        assert!(matches!(error, IoError::Finished { .. }));
+        assert!(error.to_string().contains("--force"), "{error}");
+        assert_eq!(fs::read(out.file("fluid.vtkhdf")).unwrap(), b"frames");
+
+        OutputDir::prepare(out.path(), true).unwrap();
+        assert_eq!(names(out.path()), ["summary.json"]);
+        assert_eq!(Summary::read(&out.file("summary.json")).unwrap().status, Status::Running);
+    }
+
+    #[test]
+    fn a_broken_off_run_gives_way_and_other_files_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = OutputDir::prepare(folder.path(), false).unwrap();
+        for name in ["openings.csv", "notes.txt", "particles.json", "old fluid.vtkhdf"] {
+            fs::write(out.file(name), "x").unwrap();
+        }
+        fs::create_dir(out.file("report.html")).unwrap();
+        OutputDir::prepare(folder.path(), false).unwrap();
+        assert_eq!(
+            names(folder.path()),
+            ["notes.txt", "old fluid.vtkhdf", "particles.json", "report.html", "summary.json"]
+        );
+    }
+
+    #[test]
+    fn files_of_unknown_origin_are_not_touched() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("report.html"), "my own page").unwrap();
+        let error = OutputDir::prepare(folder.path(), false).unwrap_err();
+        assert!(matches!(&error, IoError::Foreign { file, .. } if file == "report.html"), "{error}");
+        fs::write(folder.path().join("summary.json"), "{\"mine\": 1}").unwrap();
+        assert!(matches!(OutputDir::prepare(folder.path(), false), Err(IoError::Foreign { .. })));
+        assert_eq!(names(folder.path()), ["report.html", "summary.json"]);
+
+        let file = folder.path().join("report.html");
+        assert!(matches!(OutputDir::prepare(&file, true), Err(IoError::System { .. })));
+    }
+}
