@@ -145,8 +145,8 @@ impl DistanceGrid {
 fn snake(node: usize) -> DVec3 {
     let (x, y, z) = (node % NODES, node / NODES % NODES, node / NODES / NODES);
     let row = node / NODES;
-    let y = if z % 2 == 0 { y } else { NODES - 1 - y };
-    let x = if row % 2 == 0 { x } else { NODES - 1 - x };
+    let y = if z.is_multiple_of(2) { y } else { NODES - 1 - y };
+    let x = if row.is_multiple_of(2) { x } else { NODES - 1 - x };
     DVec3::new(x as f64, y as f64, z as f64)
 }
 

@@ -110,6 +110,18 @@ pub enum GeometryError {
         /// Its position.
         position: glam::DVec3,
     },
+    /// A vertex of a surface is beyond all reason, so that areas and volumes would lose their meaning.
+    #[error(
+        "vertex {vertex} of the surface is at {position}, beyond the limit of {limit:e}; the file is damaged"
+    )]
+    TooFar {
+        /// Vertex, counted from 0.
+        vertex: usize,
+        /// Its position.
+        position: glam::DVec3,
+        /// Largest coordinate taken.
+        limit: f64,
+    },
     /// A triangle names a vertex that is not there.
     #[error("triangle {triangle} names vertex {vertex}, but there are only {vertices} vertices")]
     VertexRange {

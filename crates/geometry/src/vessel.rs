@@ -18,6 +18,9 @@ use crate::{
 /// Smallest enclosed volume, as part of the cubed diagonal of the bounding box.
 const MIN_VOLUME: f64 = 1e-9;
 
+/// Largest coordinate, in whatever unit. Products of four lengths must stay far from overflow.
+const MAX_COORDINATE: f64 = 1e30;
+
 /// A vessel ready to be filled: closed, outward, in metres, with its openings known.
 #[derive(Debug, Clone)]
 pub struct Vessel {
@@ -55,7 +58,7 @@ impl Vessel {
 /// which flat parts were considered.
 ///
 /// # Errors
-/// When a vertex is not finite, a triangle names a vertex that is not there, no triangle has an area, or the
+/// When a vertex is not finite or absurdly far away, a triangle names a vertex that is not there, no triangle has an area, or the
 /// surface encloses no volume.
 pub fn prepare(raw: Surface, unit: Option<LengthUnit>) -> Result<Vessel, GeometryError> {
     validate(&raw)?;
@@ -129,6 +132,10 @@ fn validate(raw: &Surface) -> Result<(), GeometryError> {
     }
     if let Some(vertex) = raw.vertices.iter().position(|v| !v.is_finite()) {
         return Err(GeometryError::NotFinite { vertex, position: raw.vertices[vertex] });
+    }
+    if let Some(vertex) = raw.vertices.iter().position(|v| v.abs().max_element() > MAX_COORDINATE) {
+        let position = raw.vertices[vertex];
+        return Err(GeometryError::TooFar { vertex, position, limit: MAX_COORDINATE });
     }
     let vertices = raw.vertices.len();
     for (triangle, corners) in raw.triangles.iter().enumerate() {

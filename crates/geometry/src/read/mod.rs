@@ -1,6 +1,8 @@
 //! Surfaces from files.
 
 mod stl;
+mod vtk_array;
+mod vtp;
 
 use std::path::Path;
 
@@ -20,5 +22,19 @@ pub fn read_surface(path: &Path) -> Result<Surface, GeometryError> {
 
 /// Reads a surface from the bytes of a file; `path` is for messages only.
 pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError> {
-    stl::parse(bytes, path)
+    let mut surface = if vtp::is_vtp(bytes) { vtp::parse(bytes, path)? } else { stl::parse(bytes, path)? };
+    if surface.triangles.is_empty() {
+        return Err(GeometryError::EmptyFile { path: path.to_owned() });
+    }
+    surface.drop_unused_vertices();
+    for (triangle, corners) in surface.triangles.iter().enumerate() {
+        let coordinates = corners.iter().flat_map(|&v| surface.vertices[v as usize].to_array());
+        if let Some(value) = coordinates.into_iter().find(|x| !x.is_finite()) {
+            return Err(GeometryError::NotFiniteInFile { path: path.to_owned(), triangle, value });
+        }
+    }
+    Ok(surface)
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,24 +15,12 @@ const RECORD: u64 = 50;
 
 /// Reads an STL file.
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError> {
-    let surface = match binary_count(bytes) {
-        Some(count) if bytes.len() as u64 == length(count) => binary(bytes, path)?,
+    match binary_count(bytes) {
+        Some(count) if bytes.len() as u64 == length(count) => binary(bytes, path),
         announced => match text(bytes) {
-            Some(words) => ascii(words, path)?,
-            None => return Err(damaged(announced, bytes, path)),
+            Some(text) => ascii(&text, path),
+            None => Err(damaged(announced, bytes, path)),
         },
-    };
-    if surface.triangles.is_empty() {
-        return Err(GeometryError::EmptyFile { path: path.to_owned() });
-    }
-    let bad = surface.vertices.iter().flat_map(|v| v.to_array()).position(|x| !x.is_finite());
-    match bad {
-        Some(at) => Err(GeometryError::NotFiniteInFile {
-            path: path.to_owned(),
-            triangle: at / 9,
-            value: surface.vertices[at / 3][at % 3],
-        }),
-        None => Ok(surface),
     }
 }
 
@@ -141,7 +129,7 @@ impl<'a> Words<'a> {
     }
 }
 
-fn ascii(text: String, path: &Path) -> Result<Surface, GeometryError> {
+fn ascii(text: &str, path: &Path) -> Result<Surface, GeometryError> {
     let mut words = Words { path, lines: text.lines().enumerate(), rest: "".split_whitespace(), line: 0 };
     let mut surface = Surface::default();
     while let Some(word) = words.next() {

@@ -81,7 +81,7 @@ fn flood(
         let own = turned[t] == Some(true);
         for k in (0..3).filter(|&k| across[t][k] != NONE) {
             let other = across[t][k] as usize;
-            let wanted = own != !agrees[t][k];
+            let wanted = own == agrees[t][k];
             match turned[other] {
                 None => {
                     turned[other] = Some(wanted);

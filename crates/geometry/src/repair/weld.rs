@@ -28,13 +28,18 @@ pub(crate) struct Welded {
 /// Only where the exact pass leaves a border can a gap be meant to be closed, so vertices inside a sheet
 /// keep their place and a clean surface comes out as it went in.
 pub(crate) fn weld(surface: &mut Surface) -> Welded {
-    let exact = merge(surface, |vertices| exact_representatives(vertices));
+    let exact = merge(surface, exact_representatives);
     let tolerance = tolerance(surface);
     let mut at_border = vec![false; surface.vertices.len()];
     for v in Edges::new(&surface.triangles).border().into_iter().flatten() {
         at_border[v as usize] = true;
     }
-    let close = merge(surface, |vertices| close_representatives(vertices, &at_border, tolerance));
+    // A tolerance below the rounding of the coordinates themselves joins nothing; cell numbers would overflow.
+    let close = if tolerance > f64::EPSILON * surface.diagonal() {
+        merge(surface, |vertices| close_representatives(vertices, &at_border, tolerance))
+    } else {
+        0
+    };
     Welded { exact, close, tolerance }
 }
 
@@ -67,10 +72,8 @@ fn exact_representatives(vertices: &[DVec3]) -> Vec<u32> {
 /// For each marked vertex the first marked one kept within `tolerance`, else itself.
 fn close_representatives(vertices: &[DVec3], marked: &[bool], tolerance: f64) -> Vec<u32> {
     let mut of: Vec<u32> = (0..vertices.len() as u32).collect();
-    if tolerance <= 0.0 {
-        return of;
-    }
-    let cell = |v: DVec3| (v / tolerance).floor().to_array().map(|c| c as i64);
+    let low = vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let cell = |v: DVec3| ((v - low) / tolerance).floor().to_array().map(|c| c as i64);
     let mut kept: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
     for v in (0..vertices.len()).filter(|&v| marked[v]) {
         let [x, y, z] = cell(vertices[v]);

@@ -58,7 +58,7 @@ pub(crate) fn stitch_alternating(surface: &mut Surface, low: &[u32], high: &[u32
     for i in 0..n {
         let j = (i + 1) % n;
         let (a, b, c, d) = (low[i], low[j], high[j], high[i]);
-        if (i + row) % 2 == 0 {
+        if (i + row).is_multiple_of(2) {
             surface.triangles.extend([[a, b, c], [a, c, d]]);
         } else {
             surface.triangles.extend([[a, b, d], [b, c, d]]);
