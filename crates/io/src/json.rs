@@ -28,3 +28,34 @@ pub(crate) fn number<'de, D: Deserializer<'de>>(input: D) -> Result<f64, D::Erro
 pub(crate) fn vector<'de, D: Deserializer<'de>>(input: D) -> Result<[f64; 3], D::Error> {
     Ok(<[Option<f64>; 3]>::deserialize(input)?.map(|x| x.unwrap_or(f64::NAN)))
 }
+
+/// Gives a struct the functions to be a JSON file: `write`, `read`, `to_json`.
+macro_rules! file {
+    ($type:ty) => {
+        impl $type {
+            /// Writes the file whole or not at all.
+            ///
+            /// # Errors
+            /// [`IoError::System`](crate::IoError::System) when the disk or the folder refuses.
+            pub fn write(&self, path: &std::path::Path) -> Result<(), $crate::IoError> {
+                $crate::json::write(path, self)
+            }
+
+            /// Reads the file.
+            ///
+            /// # Errors
+            /// [`IoError::System`](crate::IoError::System) or, when the content is not what it should be, [`IoError::Json`](crate::IoError::Json).
+            pub fn read(path: &std::path::Path) -> Result<Self, $crate::IoError> {
+                $crate::json::read(path)
+            }
+
+            /// The same text for a terminal.
+            pub fn to_json(&self) -> String {
+                serde_json::to_string_pretty(self)
+                    .expect("plain structs with string keys always serialize; non-finite numbers become null")
+            }
+        }
+    };
+}
+
+pub(crate) use file;

@@ -3,6 +3,7 @@
 mod archive;
 mod atomic;
 mod cache;
+mod check;
 mod error;
 mod hdf5;
 mod json;
@@ -15,11 +16,10 @@ mod table;
 
 pub use archive::Archive;
 pub use cache::{Cache, CacheKey, KeyBuilder};
+pub use check::{CheckReport, EffectEntry, Numbers, OpeningEntry, Predicted, SurfaceReport};
 pub use error::IoError;
 pub use output::OutputDir;
+pub use particles::{ParticlesReport, Quality};
 pub use series::{FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, read_series_info};
-pub use summary::{
-    CheckReport, EffectEntry, Numbers, OpeningEntry, OpeningSummary, ParticleCounts, ParticlesReport,
-    Predicted, Quality, Stability, Status, StepCounts, Summary, SurfaceReport,
-};
+pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};

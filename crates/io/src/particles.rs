@@ -1,7 +1,12 @@
-//! `particles.vtkhdf`: what the generator made, all bodies in one file of one frame.
+//! What `vaso particles` leaves: `particles.vtkhdf`, all bodies in one file of one frame, and
+//! `particles.json`, their quality.
 
-use crate::{Frame, IoError, SeriesWriter, schema};
+use crate::check::{OpeningEntry, SurfaceReport};
+use crate::summary::ParticleCounts;
+use crate::{Frame, IoError, SeriesWriter, json, schema};
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Which body a particle belongs to: the value of the point field `Body`.
@@ -80,6 +85,65 @@ pub fn write_particles(path: &Path, bodies: &[BodyParticles<'_>]) -> Result<(), 
         ids: Some(&ids),
     })
 }
+
+/// `particles.json`: the outcome of `vaso particles`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ParticlesReport {
+    /// Version of the program.
+    pub vaso_version: String,
+    /// Title of the case.
+    pub case: String,
+    /// Generator used.
+    pub generator: String,
+    /// Particle spacing [m].
+    #[serde(deserialize_with = "json::number")]
+    pub spacing_m: f64,
+    /// The geometry audit.
+    pub surface: SurfaceReport,
+    /// Openings, largest first.
+    pub openings: Vec<OpeningEntry>,
+    /// Particles of each body.
+    pub particles: ParticleCounts,
+    /// Quality by body name (`fluid`, `wall`, `shell`).
+    pub quality: BTreeMap<String, Quality>,
+    /// Advice.
+    #[serde(default)]
+    pub warnings: Vec<String>,
+}
+
+/// Quality of one generated body; lengths in particle spacings.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Quality {
+    /// Number of particles.
+    pub count: u64,
+    /// Sum of particle volumes over the volume they stand for, minus one [-].
+    #[serde(deserialize_with = "json::number")]
+    pub volume_error: f64,
+    /// Smallest distance between two particles [spacings].
+    #[serde(deserialize_with = "json::number")]
+    pub nearest_neighbor_min: f64,
+    /// Standard deviation over mean of the distance to the nearest particle [-].
+    #[serde(deserialize_with = "json::number")]
+    pub nearest_neighbor_cv: f64,
+    /// Mean of the kernel sum over particles with full support [-]; `None` where no particle has it.
+    pub kernel_sum_mean: Option<f64>,
+    /// Standard deviation of the kernel sum [-].
+    pub kernel_sum_std: Option<f64>,
+    /// Root mean square of the kernel gradient sum, times the spacing [-].
+    #[serde(deserialize_with = "json::number")]
+    pub gradient_residual_rms: f64,
+    /// Standard deviation over mean of the particle volumes [-].
+    #[serde(deserialize_with = "json::number")]
+    pub volume_cv: f64,
+    /// Particles on the wrong side of the surface.
+    pub outside: u64,
+    /// Wall time of the generation [s].
+    pub seconds: Option<f64>,
+    /// Relaxation iterations.
+    pub iterations: u64,
+}
+
+json::file!(ParticlesReport);
 
 #[cfg(test)]
 mod tests {
