@@ -26,10 +26,10 @@ pub struct CheckReport {
 pub struct SurfaceReport {
     /// Triangles after repair.
     pub triangles: u64,
-    /// Enclosed volume with the openings capped [m^3].
+    /// Enclosed volume with the openings capped \[m^3\].
     #[serde(deserialize_with = "json::number")]
     pub volume_m3: f64,
-    /// Area with the openings capped [m^2].
+    /// Area with the openings capped \[m^2\].
     #[serde(deserialize_with = "json::number")]
     pub area_m2: f64,
     /// Closed once the openings are capped.
@@ -47,16 +47,16 @@ pub struct SurfaceReport {
 pub struct OpeningEntry {
     /// Name from the case, or one made from the rank by area.
     pub name: String,
-    /// Centroid [m].
+    /// Centroid \[m\].
     #[serde(deserialize_with = "json::vector")]
     pub center_m: [f64; 3],
-    /// Unit normal out of the domain [-].
+    /// Unit normal out of the domain \[-\].
     #[serde(deserialize_with = "json::vector")]
     pub normal: [f64; 3],
-    /// Area [m^2].
+    /// Area \[m^2\].
     #[serde(deserialize_with = "json::number")]
     pub area_m2: f64,
-    /// Radius of the circle of equal area [m].
+    /// Radius of the circle of equal area \[m\].
     #[serde(deserialize_with = "json::number")]
     pub radius_m: f64,
 }
@@ -64,13 +64,13 @@ pub struct OpeningEntry {
 /// Dimensionless (and two dimensional) numbers of the scene; `None` where the scene does not define one.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Numbers {
-    /// Peak speed times diameter over kinematic viscosity [-].
+    /// Peak speed times diameter over kinematic viscosity \[-\].
     pub reynolds_peak: Option<f64>,
-    /// Radius times square root of angular frequency over kinematic viscosity [-].
+    /// Radius times square root of angular frequency over kinematic viscosity \[-\].
     pub womersley: Option<f64>,
-    /// Expected radial strain of the wall [-].
+    /// Expected radial strain of the wall \[-\].
     pub radial_strain: Option<f64>,
-    /// Artificial sound speed [m/s].
+    /// Artificial sound speed \[m/s\].
     pub sound_speed_m_s: Option<f64>,
 }
 
@@ -86,10 +86,10 @@ pub struct EffectEntry {
     pub called_for: bool,
     /// Why it is on or off.
     pub reason: String,
-    /// Wall time spent in it [s]; absent before a run.
+    /// Wall time spent in it \[s\]; absent before a run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
-    /// Memory held by it [bytes]; absent before a run.
+    /// Memory held by it \[bytes\]; absent before a run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bytes: Option<u64>,
 }
@@ -99,9 +99,9 @@ pub struct EffectEntry {
 pub struct Predicted {
     /// Particles of each body.
     pub particles: ParticleCounts,
-    /// Memory [bytes].
+    /// Memory \[bytes\].
     pub memory_bytes: u64,
-    /// Wall time [s].
+    /// Wall time \[s\].
     #[serde(deserialize_with = "json::number")]
     pub wall_clock_s: f64,
 }

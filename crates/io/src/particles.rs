@@ -37,13 +37,13 @@ impl BodyKind {
 pub struct BodyParticles<'a> {
     /// Which body.
     pub kind: BodyKind,
-    /// Positions [m].
+    /// Positions \[m\].
     pub position: &'a [DVec3],
-    /// Volume of each particle of the body [m^3].
+    /// Volume of each particle of the body \[m^3\].
     pub volume: f64,
     /// Unit normals out of the lumen; empty for a body without (written as zero vectors).
     pub normal: &'a [DVec3],
-    /// Distances outside the lumen surface [m]; empty for a body without (written as zeros).
+    /// Distances outside the lumen surface \[m\]; empty for a body without (written as zeros).
     pub depth: &'a [f64],
 }
 
@@ -95,7 +95,7 @@ pub struct ParticlesReport {
     pub case: String,
     /// Generator used.
     pub generator: String,
-    /// Particle spacing [m].
+    /// Particle spacing \[m\].
     #[serde(deserialize_with = "json::number")]
     pub spacing_m: f64,
     /// The geometry audit.
@@ -116,28 +116,28 @@ pub struct ParticlesReport {
 pub struct Quality {
     /// Number of particles.
     pub count: u64,
-    /// Sum of particle volumes over the volume they stand for, minus one [-].
+    /// Sum of particle volumes over the volume they stand for, minus one \[-\].
     #[serde(deserialize_with = "json::number")]
     pub volume_error: f64,
-    /// Smallest distance between two particles [spacings].
+    /// Smallest distance between two particles \[spacings\].
     #[serde(deserialize_with = "json::number")]
     pub nearest_neighbor_min: f64,
-    /// Standard deviation over mean of the distance to the nearest particle [-].
+    /// Standard deviation over mean of the distance to the nearest particle \[-\].
     #[serde(deserialize_with = "json::number")]
     pub nearest_neighbor_cv: f64,
-    /// Mean of the kernel sum over particles with full support [-]; `None` where no particle has it.
+    /// Mean of the kernel sum over particles with full support \[-\]; `None` where no particle has it.
     pub kernel_sum_mean: Option<f64>,
-    /// Standard deviation of the kernel sum [-].
+    /// Standard deviation of the kernel sum \[-\].
     pub kernel_sum_std: Option<f64>,
-    /// Root mean square of the kernel gradient sum, times the spacing [-].
+    /// Root mean square of the kernel gradient sum, times the spacing \[-\].
     #[serde(deserialize_with = "json::number")]
     pub gradient_residual_rms: f64,
-    /// Standard deviation over mean of the particle volumes [-].
+    /// Standard deviation over mean of the particle volumes \[-\].
     #[serde(deserialize_with = "json::number")]
     pub volume_cv: f64,
     /// Particles on the wrong side of the surface.
     pub outside: u64,
-    /// Wall time of the generation [s].
+    /// Wall time of the generation \[s\].
     pub seconds: Option<f64>,
     /// Relaxation iterations.
     pub iterations: u64,

@@ -21,33 +21,33 @@ pub const FIELDS: &[(&str, &str)] = &[
     (BODY, "1"),
 ];
 
-/// Fluid velocity [m/s].
+/// Fluid velocity \[m/s\].
 pub const VELOCITY: &str = "Velocity";
-/// Gauge pressure [Pa].
+/// Gauge pressure \[Pa\].
 pub const PRESSURE: &str = "Pressure";
-/// Density [kg/m^3].
+/// Density \[kg/m^3\].
 pub const DENSITY: &str = "Density";
 /// Identity of a particle for its whole life.
 pub const ID: &str = "Id";
-/// Displacement of the wall from its reference place [m].
+/// Displacement of the wall from its reference place \[m\].
 pub const DISPLACEMENT: &str = "Displacement";
-/// Von Mises stress of the wall [Pa].
+/// Von Mises stress of the wall \[Pa\].
 pub const VON_MISES: &str = "VonMises";
-/// Wall shear stress vector: the force of the fluid on the wall per area [Pa].
+/// Wall shear stress vector: the force of the fluid on the wall per area \[Pa\].
 pub const WSS: &str = "WSS";
-/// Time average of the magnitude of the wall shear stress over a cycle [Pa].
+/// Time average of the magnitude of the wall shear stress over a cycle \[Pa\].
 pub const TAWSS: &str = "TAWSS";
 /// Oscillatory shear index, 0 to 0.5.
 pub const OSI: &str = "OSI";
-/// Relative residence time [1/Pa].
+/// Relative residence time \[1/Pa\].
 pub const RRT: &str = "RRT";
 /// Unit normal of the wall.
 pub const NORMAL: &str = "Normal";
-/// Thickness of a shell [m].
+/// Thickness of a shell \[m\].
 pub const THICKNESS: &str = "Thickness";
-/// Volume of a particle [m^3].
+/// Volume of a particle \[m^3\].
 pub const VOLUME: &str = "Volume";
-/// Distance of a wall particle outside the lumen surface [m].
+/// Distance of a wall particle outside the lumen surface \[m\].
 pub const DEPTH: &str = "Depth";
 /// Body of a particle where one file holds several: see [`crate::particles::BodyKind`].
 pub const BODY: &str = "Body";

@@ -19,10 +19,10 @@ pub struct Summary {
     pub case: String,
     /// What went wrong, if anything did.
     pub message: Option<String>,
-    /// Simulated time reached [s].
+    /// Simulated time reached \[s\].
     #[serde(deserialize_with = "json::number")]
     pub time_s: f64,
-    /// Wall time spent [s].
+    /// Wall time spent \[s\].
     #[serde(deserialize_with = "json::number")]
     pub wall_clock_s: f64,
     /// Worker threads.
@@ -31,13 +31,13 @@ pub struct Summary {
     pub particles: ParticleCounts,
     /// Steps taken.
     pub steps: StepCounts,
-    /// Particles times acoustic steps over wall time [1/s].
+    /// Particles times acoustic steps over wall time \[1/s\].
     #[serde(deserialize_with = "json::number")]
     pub particle_substeps_per_s: f64,
-    /// Particle spacing [m].
+    /// Particle spacing \[m\].
     #[serde(deserialize_with = "json::number")]
     pub spacing_m: f64,
-    /// Artificial sound speed [m/s].
+    /// Artificial sound speed \[m/s\].
     #[serde(deserialize_with = "json::number")]
     pub sound_speed_m_s: f64,
     /// `mixed` or `double`.
@@ -118,20 +118,20 @@ pub struct StepCounts {
 /// What the guards saw over the whole run.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Stability {
-    /// Largest relative deviation of the density from its rest value [-].
+    /// Largest relative deviation of the density from its rest value \[-\].
     #[serde(deserialize_with = "json::number")]
     pub max_density_error: f64,
-    /// Largest speed over sound speed [-].
+    /// Largest speed over sound speed \[-\].
     #[serde(deserialize_with = "json::number")]
     pub max_mach: f64,
     /// Fluid particles found outside the lumen.
     pub escaped_particles: u64,
     /// Values that were not finite.
     pub non_finite: u64,
-    /// Inflow minus outflow minus storage, over the inflow [-].
+    /// Inflow minus outflow minus storage, over the inflow \[-\].
     #[serde(deserialize_with = "json::number")]
     pub mass_balance_error: f64,
-    /// Energy that nothing supplied, over the total [-].
+    /// Energy that nothing supplied, over the total \[-\].
     #[serde(deserialize_with = "json::number")]
     pub energy_growth: f64,
 }
@@ -142,10 +142,10 @@ pub struct OpeningSummary {
     /// The geometry.
     #[serde(flatten)]
     pub opening: OpeningEntry,
-    /// Mean flow, positive out of the domain [m^3/s].
+    /// Mean flow, positive out of the domain \[m^3/s\].
     #[serde(deserialize_with = "json::number")]
     pub mean_flow_m3_s: f64,
-    /// Mean pressure [Pa].
+    /// Mean pressure \[Pa\].
     #[serde(deserialize_with = "json::number")]
     pub mean_pressure_pa: f64,
 }

@@ -21,9 +21,9 @@ use glam::DVec3;
 /// The state of one body at one time, borrowed from the simulation.
 #[derive(Debug, Clone, Default)]
 pub struct Frame<'a> {
-    /// Simulated time [s]; larger than that of the frame before.
+    /// Simulated time \[s\]; larger than that of the frame before.
     pub time: f64,
-    /// Particle positions [m].
+    /// Particle positions \[m\].
     pub position: &'a [DVec3],
     /// Fields of one number a particle, by name.
     pub scalars: Vec<(&'a str, &'a [f64])>,
@@ -36,9 +36,9 @@ pub struct Frame<'a> {
 /// A frame read back; the numbers went through single precision.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FrameData {
-    /// Simulated time [s].
+    /// Simulated time \[s\].
     pub time: f64,
-    /// Particle positions [m].
+    /// Particle positions \[m\].
     pub position: Vec<DVec3>,
     /// Fields of one number a particle, in order of name.
     pub scalars: Vec<(String, Vec<f64>)>,

@@ -23,7 +23,7 @@ pub struct FieldInfo {
 /// What a series holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesInfo {
-    /// Time of each frame [s], ascending.
+    /// Time of each frame \[s\], ascending.
     pub times: Vec<f64>,
     /// Particles in each frame.
     pub counts: Vec<usize>,

@@ -41,7 +41,7 @@ impl SeriesWriter {
         writer
     }
 
-    /// Goes on with a series: frames later than `time` [s] are dropped, those up to it stay. A missing file
+    /// Goes on with a series: frames later than `time` \[s\] are dropped, those up to it stay. A missing file
     /// makes a new series.
     ///
     /// The frames kept are copied into a new file that takes the place of the old one at once. A run resumed
@@ -92,7 +92,7 @@ impl SeriesWriter {
         self.planner.steps == 0
     }
 
-    /// Time of the last frame [s].
+    /// Time of the last frame \[s\].
     pub fn last_time(&self) -> Option<f64> {
         self.planner.last_time
     }
