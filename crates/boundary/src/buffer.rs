@@ -226,7 +226,8 @@ impl Openings {
     /// Finds the particles near caps, after the fluid has been sorted.
     pub fn locate(&mut self, state: &FluidState) {
         let length = self.buffer_length();
-        let reach = length.max(2.0 * self.numbers.smoothing_length);
+        // Particles in the fringe still carry the label of the buffer, and its flow.
+        let reach = (length + FRINGE * self.spacing).max(2.0 * self.numbers.smoothing_length);
         let ports = &self.ports;
         let spacing = self.spacing;
         self.zones.clear();
@@ -295,10 +296,13 @@ impl Openings {
             })
             .collect();
         let mut top: f64 = 0.0;
-        for (zone, shape) in self.zones.iter().zip(&self.shape).filter(|(zone, _)| zone.in_buffer) {
+        for (zone, shape) in self.zones.iter().zip(&self.shape) {
             let (i, k) = (zone.particle as usize, zone.opening as usize);
             let velocity = match self.ports[k].condition {
-                Condition::Velocity { .. } => -zone.normal * (imposed[k] * shape),
+                // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
+                Condition::Velocity { .. } if fluid.state.opening[i] == k as i32 => -zone.normal * (imposed[k] * shape),
+                Condition::Velocity { .. } => continue,
+                Condition::Pressure { .. } if !zone.in_buffer => continue,
                 Condition::Pressure { .. } => {
                     let rho = rest_density + fluid.state.density_change[i];
                     let pushed = fluid.state.velocity[i] + dt * imposed[k] / rho * fluid.missing_support(i);
@@ -316,9 +320,12 @@ impl Openings {
         let (near, far) = (self.buffer_length(), self.buffer_length() + SECTION * self.spacing);
         let reference = self.reference_pressure(t);
         let mut readings: Vec<Reading> = vec![Reading::default(); self.ports.len()];
-        for zone in self.zones.iter().filter(|zone| zone.in_buffer) {
+        for zone in &self.zones {
             let (i, k) = (zone.particle as usize, zone.opening as usize);
-            let volume = state.mass[i] / (self.numbers.rest_density + state.density_change[i]);
+            if state.opening[i] != k as i32 {
+                continue;
+            }
+            let volume = state.mass[i] / self.numbers.rest_density;
             readings[k].flow += volume * state.velocity[i].dot(zone.normal) / near;
         }
         for (k, port) in self.ports.iter().enumerate() {
@@ -346,7 +353,7 @@ const SECTION: f64 = 4.0;
 /// Mean state of an opening.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Flow out of the vessel, averaged over the buffer \[m^3/s\].
+    /// Flow out of the vessel at rest density, averaged over the particles the buffer owns \[m^3/s\].
     pub flow: f64,
     /// The imposed pressure, or else the mean over a section just inside the buffer \[Pa\].
     pub pressure: f64,
