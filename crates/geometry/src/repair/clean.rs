@@ -1,6 +1,6 @@
 //! Triangles without area and triangles given more than once.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, ops::AddAssign};
 
 use super::edges::{Edges, NONE};
 use crate::surface::Surface;
@@ -8,6 +8,9 @@ use crate::surface::Surface;
 /// A triangle below this part of the squared diagonal has no area to speak of. Relative, because an
 /// absolute limit would take all triangles of a file in metres.
 const NO_AREA: f64 = 1e-12;
+/// A triangle lower than this part of the diagonal has its corners in a line, up to the rounding of
+/// single-precision coordinates.
+const NO_HEIGHT: f64 = 1e-6;
 /// Bound on the rounds of [`flip_slivers`]; one is enough unless slivers lie side by side.
 const MAX_FLIP_ROUNDS: usize = 8;
 
@@ -18,6 +21,13 @@ pub(crate) struct Cleaned {
     pub(crate) degenerate: usize,
     /// Triangles given more than once, or folded flat onto each other.
     pub(crate) duplicate: usize,
+}
+
+impl AddAssign for Cleaned {
+    fn add_assign(&mut self, other: Cleaned) {
+        self.degenerate += other.degenerate;
+        self.duplicate += other.duplicate;
+    }
 }
 
 /// Drops degenerate and duplicate triangles.
@@ -75,16 +85,20 @@ fn has_no_area(surface: &Surface, t: usize, diagonal_squared: f64) -> bool {
     surface.triangle_area(t) < NO_AREA * diagonal_squared
 }
 
-/// Drops triangles without area that lie loosely on the surface.
+/// Drops triangles with their corners in a line that lie loosely on the surface.
 ///
 /// One whose three edges all have exactly two sides is a stitch of a closed sheet: without it the sheet
 /// would have a slit. Those stay, and [`flip_slivers`] gives them a shape.
 fn drop_loose_slivers(surface: &mut Surface) {
-    let limit = surface.diagonal().powi(2);
+    let min_height = NO_HEIGHT * surface.diagonal();
     let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
-    let keep: Vec<bool> = (0..surface.triangles.len())
-        .map(|t| !has_no_area(surface, t, limit) || !across[t].contains(&NONE))
-        .collect();
+    let is_line = |t: usize| {
+        let [a, b, c] = surface.triangle(t);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        2.0 * surface.triangle_area(t) < min_height * longest
+    };
+    let keep: Vec<bool> =
+        (0..surface.triangles.len()).map(|t| !across[t].contains(&NONE) || !is_line(t)).collect();
     let mut keep = keep.into_iter();
     surface.triangles.retain(|_| keep.next().unwrap_or(true));
 }

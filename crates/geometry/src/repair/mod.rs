@@ -25,12 +25,14 @@ pub(crate) struct Repaired {
 pub(crate) fn repair(surface: &mut Surface) -> Repaired {
     let mut repairs = Vec::new();
     // That files repeat a vertex for each triangle is their format, not a defect: no word about it.
-    let welded = weld::weld(surface);
-    if welded.close > 0 {
-        let n = welded.close;
-        repairs.push(format!("joined {n} border vertices to others within {:.3e} m", welded.tolerance));
+    weld::weld_exact(surface);
+    let mut cleaned = clean::clean(surface);
+    let welded = weld::weld_border(surface);
+    if welded.count > 0 {
+        let (n, within) = (welded.count, welded.tolerance);
+        repairs.push(format!("joined {n} border vertices to others within {within:.3e} m"));
+        cleaned += clean::clean(surface);
     }
-    let cleaned = clean::clean(surface);
     if cleaned.degenerate > 0 {
         repairs.push(format!("dropped {} triangles without area", cleaned.degenerate));
     }

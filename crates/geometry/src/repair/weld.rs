@@ -12,35 +12,40 @@ const RELATIVE_TOLERANCE: f64 = 1e-5;
 /// The same as part of the short edges (5th percentile), whichever is smaller: welding must not eat edges.
 const EDGE_TOLERANCE: f64 = 0.1;
 
-/// How many vertices each of the two passes joined.
+/// Joins vertices at exactly the same place; returns how many went.
+///
+/// Files that repeat a vertex for each triangle, as STL does, become a connected surface by this.
+pub(crate) fn weld_exact(surface: &mut Surface) -> usize {
+    merge(surface, exact_representatives)
+}
+
+/// What [`weld_border`] did.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Welded {
-    /// Vertices joined to one at exactly the same place.
-    pub(crate) exact: usize,
-    /// Vertices joined to one within the tolerance.
-    pub(crate) close: usize,
-    /// That tolerance, in the unit of the surface.
+    /// Vertices joined to others.
+    pub(crate) count: usize,
+    /// Largest distance over which they were joined, in the unit of the surface.
     pub(crate) tolerance: f64,
 }
 
-/// Joins vertices: first those that coincide exactly, then those of the border that are close.
+/// Joins vertices of the border that are close to each other.
 ///
-/// Only where the exact pass leaves a border can a gap be meant to be closed, so vertices inside a sheet
-/// keep their place and a clean surface comes out as it went in.
-pub(crate) fn weld(surface: &mut Surface) -> Welded {
-    let exact = merge(surface, exact_representatives);
+/// Only where exact welding leaves a border can a gap be meant to be closed. So vertices inside a sheet keep
+/// their place, and a clean surface comes out as it went in. Degenerate and duplicate triangles have to be
+/// gone before: they hide a border.
+pub(crate) fn weld_border(surface: &mut Surface) -> Welded {
     let tolerance = tolerance(surface);
     let mut at_border = vec![false; surface.vertices.len()];
     for v in Edges::new(&surface.triangles).border().into_iter().flatten() {
         at_border[v as usize] = true;
     }
     // A tolerance below the rounding of the coordinates themselves joins nothing; cell numbers would overflow.
-    let close = if tolerance > f64::EPSILON * surface.diagonal() {
+    let count = if tolerance > f64::EPSILON * surface.diagonal() {
         merge(surface, |vertices| close_representatives(vertices, &at_border, tolerance))
     } else {
         0
     };
-    Welded { exact, close, tolerance }
+    Welded { count, tolerance }
 }
 
 /// Replaces vertices by their representatives; returns how many went.
@@ -124,17 +129,17 @@ mod tests {
     #[test]
     fn equal_places_join() {
         let mut s = loose_square(0.0);
-        assert_eq!(weld(&mut s).exact, 2);
+        assert_eq!(weld_exact(&mut s), 2);
         assert_eq!(s.triangles, vec![[0, 1, 2], [0, 2, 3]]);
     }
 
     #[test]
     fn close_places_join_and_distant_ones_do_not() {
         let mut s = loose_square(1e-6);
-        let welded = weld(&mut s);
-        assert_eq!((welded.exact, welded.close), (0, 2));
+        assert_eq!(weld_exact(&mut s), 0);
+        assert_eq!(weld_border(&mut s).count, 2);
         let mut apart = loose_square(1e-4);
-        assert_eq!(weld(&mut apart).close, 0);
+        assert_eq!(weld_border(&mut apart).count, 0);
         assert_eq!(apart.vertices.len(), 6);
     }
 
@@ -142,6 +147,6 @@ mod tests {
     fn minus_zero_is_zero() {
         let mut s = loose_square(0.0);
         s.vertices[3] = -s.vertices[0];
-        assert_eq!(weld(&mut s).exact, 2);
+        assert_eq!(weld_exact(&mut s), 2);
     }
 }
