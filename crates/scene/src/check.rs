@@ -1,22 +1,168 @@
-//! What must agree with what.
+//! Loading a case: the file, the overrides, then what must agree with what.
 
 use std::path::Path;
 
+use crate::build::Builder;
+use crate::document::{NOWHERE, Source, case_file};
 use crate::error::{Problem, SceneError};
-use crate::scene::Scene;
+use crate::material::{Blood, Wall};
+use crate::opening::Opening;
+use crate::overrides;
+use crate::reader::Reader;
+use crate::scene::{Field, Output, Run, Scene};
+use crate::section::Section;
+use crate::words::Word;
 
-pub(crate) fn load(path: &Path, _overrides: &[(String, String)]) -> Result<Scene, SceneError> {
-    Err(SceneError {
-        problems: vec![Problem {
-            file: path.to_owned(),
-            line: None,
-            column: None,
-            setting: None,
-            key: String::new(),
-            message: "reading of cases is not there yet".into(),
-            seen: String::new(),
-            allowed: String::new(),
-            advice: String::new(),
-        }],
-    })
+pub(crate) fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
+    let file = case_file(path);
+    let mut source = Source { file, text: String::new(), overrides: overrides.to_vec() };
+    match std::fs::read_to_string(&source.file) {
+        Ok(text) => source.text = text,
+        Err(error) => {
+            let problem = source.problem(&NOWHERE, "", format!("cannot be read: {error}"));
+            let allowed = "a case folder, or the path of a case.toml in UTF-8".into();
+            return Err(SceneError { problems: vec![Problem { allowed, ..problem }] });
+        }
+    }
+    let mut root = source.parse().map_err(|problems| SceneError { problems })?;
+    let overriding = overrides::apply(&source, &mut root);
+    let directory = match source.file.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let mut reader = Reader { source: &source, directory, problems: overriding };
+    let sections = reader.root(&root);
+    let mut builder = Builder { source: &source, problems: reader.problems };
+    let scene = builder.scene(&sections, directory);
+    if builder.problems.is_empty() {
+        return Ok(scene.expect("a part that cannot be built has been reported"));
+    }
+    let mut problems = builder.problems;
+    problems.sort_by_key(|problem| {
+        (
+            problem.setting.is_some(),
+            problem.file != source.file,
+            problem.file.clone(),
+            problem.line,
+            problem.column,
+        )
+    });
+    Err(SceneError { problems })
+}
+
+impl Builder<'_> {
+    fn scene(&mut self, root: &Section, directory: &Path) -> Option<Scene> {
+        let run = root.section("run").map(|section| self.run(section));
+        let blood = root.section("blood").map(|section| self.blood(section));
+        let wall =
+            root.section("wall").and_then(|section| self.wall(section, root.has("blood"), run.as_ref()));
+        let openings: Vec<Option<Opening>> =
+            root.sections("opening").iter().map(|section| self.opening(section, run.as_ref())).collect();
+        let probes = root.sections("probe").iter().map(|section| self.probe(section)).collect();
+        let output =
+            root.section("output").map(|section| self.output(section, &run, root.has("blood"), &wall));
+        self.unique_names(root.sections("opening"));
+        self.unique_names(root.sections("probe"));
+        self.outlets(root, &openings);
+        self.something_to_simulate(root, &wall);
+        Some(Scene {
+            file: self.source.file.clone(),
+            directory: directory.to_owned(),
+            title: self.title(root.section("case")?, directory),
+            geometry: self.geometry(root.section("geometry")?)?,
+            particles: self.particles(root.section("particles")?)?,
+            blood: blood.map_or(Some(None), |blood: Option<Blood>| blood.map(Some))?,
+            wall: wall?,
+            openings: openings.into_iter().collect::<Option<_>>()?,
+            probes,
+            numerics: self.numerics(root.section("numerics")?)?,
+            run: run?,
+            output: output?,
+        })
+    }
+
+    fn unique_names(&mut self, sections: &[Section]) {
+        for (number, section) in sections.iter().enumerate() {
+            let Some(name) = section.text("name") else { continue };
+            if let Some(first) = sections[..number].iter().find(|other| other.text("name") == Some(name)) {
+                let line = self.source.problem(first.spot("name"), "", "").line;
+                let place = line.map_or_else(String::new, |line| format!(" in line {line}"));
+                self.report(
+                    section,
+                    "name",
+                    format!("the name is taken{place}"),
+                    "a name for each",
+                    "rename one",
+                );
+            }
+        }
+    }
+
+    /// Blood that is nearly incompressible must be free to leave: where every opening prescribes its flow, the
+    /// slightest mismatch of their sum would drive the pressure without bound.
+    fn outlets(&mut self, root: &Section, openings: &[Option<Opening>]) {
+        let sections = root.sections("opening");
+        let Some(first) = sections.first() else { return };
+        if !root.has("blood") {
+            let problem = self.source.problem(&first.spot, "opening", "needs blood to flow through it");
+            let advice = "add `[blood]` or remove the openings".into();
+            self.problems.push(Problem { advice, ..problem });
+        }
+        let prescribed =
+            |opening: &Option<Opening>| opening.as_ref().is_some_and(|o| o.condition.prescribes_flow());
+        if openings.iter().all(prescribed) {
+            let problem = self.source.problem(&first.spot, "opening", "every opening prescribes its flow");
+            let allowed = "at least one of condition \"pressure\", \"resistance\" or \"windkessel\"".into();
+            self.problems.push(Problem {
+                seen: String::new(),
+                allowed,
+                advice: "give the vessel an outlet".into(),
+                ..problem
+            });
+        }
+    }
+
+    fn something_to_simulate(&mut self, root: &Section, wall: &Option<Wall>) {
+        if !root.has("blood") && matches!(wall, Some(Wall::Rigid | Wall::RigidShell)) {
+            let message = "is missing, and the wall does not move: there is nothing to simulate";
+            let advice = "add `[blood]`, or a wall of model \"solid\" or \"shell\" with a `pressure`";
+            self.report(root, "blood", message, "", advice);
+        }
+    }
+
+    fn output(&mut self, section: &Section, run: &Option<Run>, blood: bool, wall: &Option<Wall>) -> Output {
+        let elastic = matches!(wall, Some(Wall::Solid(_) | Wall::Shell(_)));
+        let end_time = run.as_ref().map_or(f64::NAN, |run| run.end_time);
+        let every = section.optional_number("every").unwrap_or(end_time / 100.0);
+        let fields = section.words::<Field>("fields");
+        for field in fields.iter().flatten() {
+            let (available, needs) = match field {
+                Field::Velocity | Field::Pressure | Field::Density | Field::Wss => (blood, "`[blood]`"),
+                // A wall that could not be read has been reported already.
+                Field::Displacement | Field::VonMises => {
+                    (elastic || wall.is_none(), "a wall of model \"solid\" or \"shell\"")
+                }
+                Field::Tawss | Field::Osi | Field::Rrt if !blood => (false, "`[blood]`"),
+                Field::Tawss | Field::Osi | Field::Rrt => {
+                    (run.as_ref().is_none_or(|run| run.period.is_some()), "`run.period`")
+                }
+            };
+            if !available {
+                let message = format!("the field \"{}\" needs {needs}", field.word());
+                self.report(section, "fields", message, "", "add it or remove the field");
+            }
+        }
+        let default = || {
+            let fluid = [Field::Velocity, Field::Pressure].into_iter().filter(|_| blood);
+            fluid.chain([Field::Displacement, Field::VonMises].into_iter().filter(|_| elastic)).collect()
+        };
+        let mut fields = fields.unwrap_or_else(default);
+        fields.sort_unstable();
+        Output {
+            every,
+            table_every: section.optional_number("table_every").unwrap_or(every / 10.0),
+            fields,
+            checkpoint_every: section.optional_number("checkpoint_every"),
+        }
+    }
 }

@@ -1,17 +1,30 @@
 #![doc = include_str!("../README.md")]
 
+mod build;
 mod check;
+mod document;
+mod drive;
 mod error;
+mod kind;
 pub mod material;
 pub mod opening;
+mod overrides;
+mod plain;
+mod reader;
+mod reference;
 mod scene;
+mod schema;
+mod section;
+mod table;
 mod waveform;
 mod words;
 
 pub use error::{Problem, SceneError};
 pub use material::{Blood, Wall};
 pub use opening::{Condition, Drive, Opening, Profile};
+pub use reference::case_reference;
 pub use scene::{
     Field, Generator, Geometry, Lattice, Numerics, Output, Particles, Precision, Probe, Run, Scene, Topology,
 };
 pub use waveform::Waveform;
+pub use words::Word;

@@ -1,7 +1,7 @@
 //! What happens at the openings.
 
 use crate::waveform::Waveform;
-use crate::words::words;
+use crate::words::{Word, words};
 
 /// The condition at one opening of the vessel.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,12 @@
 //! Enums whose variants are words of `case.toml`.
 
-/// A closed set of words; the schema, the reader and the printed plan all take them from here.
-pub(crate) trait Word: Copy + 'static {
+/// A closed set of words of `case.toml`; schema, reader and printed plan all take them from here.
+pub trait Word: Copy + 'static {
     /// The words as written in the file, in the order of the variants.
     const WORDS: &'static [&'static str];
+
+    /// The word as written in the file.
+    fn word(self) -> &'static str;
 
     /// The variant of a word.
     fn from_word(word: &str) -> Option<Self>;
@@ -20,15 +23,12 @@ macro_rules! words {
             $($(#[$variant_attribute])* #[doc = concat!(" Written `\"", $word, "\"`.")] $variant,)+
         }
 
-        impl $name {
-            /// The word as written in `case.toml`.
-            $visibility fn word(self) -> &'static str {
-                match self { $(Self::$variant => $word,)+ }
-            }
-        }
-
         impl $crate::words::Word for $name {
             const WORDS: &'static [&'static str] = &[$($word),+];
+
+            fn word(self) -> &'static str {
+                match self { $(Self::$variant => $word,)+ }
+            }
 
             fn from_word(word: &str) -> Option<Self> {
                 match word { $($word => Some(Self::$variant),)+ _ => None }

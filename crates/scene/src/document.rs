@@ -1,0 +1,182 @@
+//! The text of a case as a tree whose every node knows where it was written.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml::de::{DeArray, DeTable, DeValue};
+
+use crate::error::Problem;
+
+/// Where a node was written.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Spot {
+    /// Bytes of the case file; empty for what stands nowhere.
+    File(Range<usize>),
+    /// Number of the override.
+    Override(usize),
+}
+
+/// The spot of what is not written anywhere.
+pub(crate) const NOWHERE: Spot = Spot::File(0..0);
+
+/// A value with the place it was written at.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    pub(crate) content: Content,
+    pub(crate) spot: Spot,
+}
+
+/// A value of the file.
+#[derive(Debug, Clone)]
+pub(crate) enum Content {
+    Text(String),
+    /// Saturated where the file has more digits.
+    Integer(i128),
+    Float(f64),
+    Flag(bool),
+    Date,
+    List(Vec<Node>),
+    Table(Vec<Entry>),
+}
+
+/// A key with its value.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    pub(crate) key: String,
+    pub(crate) key_spot: Spot,
+    pub(crate) node: Node,
+}
+
+impl Content {
+    /// What the value is, with an article.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Text(_) => "a string",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a number",
+            Self::Flag(_) => "a boolean",
+            Self::Date => "a date",
+            Self::List(_) => "an array",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+/// The text of a case and of the overrides that were laid over it.
+#[derive(Debug)]
+pub(crate) struct Source {
+    pub(crate) file: PathBuf,
+    pub(crate) text: String,
+    pub(crate) overrides: Vec<(String, String)>,
+}
+
+impl Source {
+    /// The tree of the file.
+    pub(crate) fn parse(&self) -> Result<Node, Vec<Problem>> {
+        let (table, errors) = DeTable::parse_recoverable(&self.text);
+        if errors.is_empty() {
+            return Ok(Node { content: table_of(table.get_ref(), &Spot::File), spot: NOWHERE });
+        }
+        let problems = errors.iter().map(|error| {
+            let spot = error.span().map_or(NOWHERE, Spot::File);
+            Problem { advice: "correct the TOML syntax".into(), ..self.problem(&spot, "", error.message()) }
+        });
+        Err(problems.collect())
+    }
+
+    /// A problem at a spot, with what is written there as the value seen.
+    pub(crate) fn problem(&self, spot: &Spot, key: &str, message: impl Into<String>) -> Problem {
+        let mut problem = Problem {
+            file: self.file.clone(),
+            line: None,
+            column: None,
+            setting: None,
+            key: key.to_owned(),
+            message: message.into(),
+            seen: String::new(),
+            allowed: String::new(),
+            advice: String::new(),
+        };
+        match spot {
+            Spot::Override(number) => {
+                let (key, value) = &self.overrides[*number];
+                problem.setting = Some(format!("{key}={value}"));
+                problem.seen = shortened(value);
+            }
+            nowhere if *nowhere == NOWHERE => {}
+            Spot::File(span) => {
+                let (line, column) = line_and_column(&self.text, span.start);
+                (problem.line, problem.column) = (Some(line), Some(column));
+                problem.seen = shortened(self.text.get(span.clone()).unwrap_or_default());
+            }
+        }
+        problem
+    }
+
+    /// The spot of some bytes within the string written at `spot`: the same characters of the file where the string
+    /// is written without escapes, otherwise the whole value.
+    pub(crate) fn within(&self, spot: &Spot, content: &str, part: Range<usize>) -> Spot {
+        let Spot::File(span) = spot else { return spot.clone() };
+        let written = self.text.get(span.clone()).unwrap_or_default();
+        let plain = written.len() == content.len() + 2 && written.get(1..written.len() - 1) == Some(content);
+        if plain { Spot::File(span.start + 1 + part.start..span.start + 1 + part.end) } else { spot.clone() }
+    }
+}
+
+/// The value of an override: TOML where it is TOML, a string otherwise.
+pub(crate) fn override_value(text: &str, number: usize) -> Node {
+    let spot = Spot::Override(number);
+    match DeValue::parse(text.trim()) {
+        Ok(value) => Node { content: content_of(value.get_ref(), &|_| Spot::Override(number)), spot },
+        Err(_) => Node { content: Content::Text(text.to_owned()), spot },
+    }
+}
+
+fn table_of(table: &DeTable<'_>, spot: &dyn Fn(Range<usize>) -> Spot) -> Content {
+    let entries = table.iter().map(|(key, value)| Entry {
+        key: key.get_ref().to_string(),
+        key_spot: spot(key.span()),
+        node: Node { content: content_of(value.get_ref(), spot), spot: spot(value.span()) },
+    });
+    Content::Table(entries.collect())
+}
+
+fn content_of(value: &DeValue<'_>, spot: &dyn Fn(Range<usize>) -> Spot) -> Content {
+    match value {
+        DeValue::String(text) => Content::Text(text.to_string()),
+        DeValue::Integer(integer) => {
+            Content::Integer(i128::from_str_radix(integer.as_str(), integer.radix()).unwrap_or(i128::MAX))
+        }
+        DeValue::Float(float) => Content::Float(float.as_str().parse().expect("TOML floats are Rust floats")),
+        DeValue::Boolean(flag) => Content::Flag(*flag),
+        DeValue::Datetime(_) => Content::Date,
+        DeValue::Array(array) => list_of(array, spot),
+        DeValue::Table(table) => table_of(table, spot),
+    }
+}
+
+fn list_of(array: &DeArray<'_>, spot: &dyn Fn(Range<usize>) -> Spot) -> Content {
+    let nodes = array
+        .iter()
+        .map(|value| Node { content: content_of(value.get_ref(), spot), spot: spot(value.span()) });
+    Content::List(nodes.collect())
+}
+
+/// Line and column, both from 1, the column in characters.
+fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
+    let before = text.get(..byte).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The first line, at most 60 characters of it.
+fn shortened(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default();
+    let cut: String = line.chars().take(60).collect();
+    if cut.len() < text.len() { format!("{cut}...") } else { cut }
+}
+
+/// The case file that a path means: itself, or `case.toml` in the folder.
+pub(crate) fn case_file(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join("case.toml") } else { path.to_owned() }
+}

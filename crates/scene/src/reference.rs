@@ -1,0 +1,76 @@
+//! The reference of `case.toml`, made from the schema.
+
+use std::fmt::Write;
+
+use crate::kind::{Key, Kind, Presence};
+use crate::schema::KEYS;
+
+const HEAD: &str = "\
+# Reference of case.toml
+
+<!-- Made by `cargo run -p vaso-scene --example case_reference > docs/case-reference.md`; do not edit. -->
+
+A number with a dimension is a string with its unit, such as `\"0.5 mm\"` or `\"3.5 mPa s\"`; any unit of the dimension
+will do. Numbers without dimension are written bare. Pressures are gauge. Points are in the unit of the surface. Paths
+start from the folder of the file. A key that is not listed here is an error.
+
+`--set key=value` overrides a key: `--set particles.spacing=\"0.4 mm\"`, `--set opening.ica.compliance=\"1e-9 m^3/Pa\"`.
+An opening or probe is addressed by its name or its number from 0.
+
+A waveform is a text file of two columns, time and value, separated by commas, semicolons, tabs or spaces, in SI units
+unless a header says otherwise in brackets: `time [ms], flow [ml/min]`. `#` begins a comment. With `run.period` the
+table holds one period, with or without the first sample repeated at its end; without, it covers the whole run.
+";
+
+/// The reference as Markdown: every key with its type, default and meaning.
+///
+/// ```
+/// assert!(vaso_scene::case_reference().contains("| `spacing` | a length above 0 | m, mm, um, cm | required |"));
+/// ```
+pub fn case_reference() -> String {
+    let mut text = HEAD.to_owned();
+    for table in
+        KEYS.iter().filter(|key| matches!(key.kind, Kind::Table | Kind::Tables | Kind::QuantityOrTable(..)))
+    {
+        let keys: Vec<&Key> = KEYS.iter().filter(|key| is_child(key, table)).collect();
+        text.push_str(&heading(table));
+        text.push_str("\n| key | value | units | default | meaning |\n|---|---|---|---|---|\n");
+        for key in keys {
+            text.push_str(&row(key, table.path.len() + 1));
+        }
+    }
+    text
+}
+
+fn is_child(key: &Key, table: &Key) -> bool {
+    key.path.rsplit_once('.').is_some_and(|(parent, _)| parent == table.path)
+}
+
+fn heading(table: &Key) -> String {
+    let (brackets, presence) = match (&table.kind, table.presence) {
+        (Kind::Tables, _) => (format!("[[{}]]", table.path), String::new()),
+        (Kind::QuantityOrTable(..), _) => (format!("{} = {{ ... }}", table.path), String::new()),
+        (_, Presence::Required) => (format!("[{}]", table.path), " Required.".to_owned()),
+        (_, Presence::Optional(absence)) => (format!("[{}]", table.path), format!(" Without it: {absence}.")),
+        (_, Presence::Default(_)) => (format!("[{}]", table.path), String::new()),
+    };
+    format!("\n## `{brackets}`\n\n{}{presence}\n", table.meaning)
+}
+
+fn row(key: &Key, skip: usize) -> String {
+    let default = match key.presence {
+        Presence::Required => "required".to_owned(),
+        Presence::Optional(absence) => absence.to_owned(),
+        Presence::Default(text) if matches!(key.kind, Kind::Number(_) | Kind::Count(..) | Kind::Flag) => {
+            format!("`{text}`")
+        }
+        Presence::Default(text) => format!("`\"{text}\"`"),
+    };
+    let mut meaning = key.meaning.to_owned();
+    for when in key.when {
+        let words = when.words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+        let _ = write!(meaning, " Only with {} {words}.", when.key);
+    }
+    let units = key.kind.dimension().map_or_else(String::new, |dimension| dimension.units().join(", "));
+    format!("| `{}` | {} | {units} | {default} | {meaning} |\n", &key.path[skip..], key.kind.words())
+}
