@@ -6,7 +6,7 @@ use crate::build::Builder;
 use crate::document::{NOWHERE, Source, case_file};
 use crate::error::{Problem, SceneError};
 use crate::material::{Blood, Wall};
-use crate::opening::Opening;
+use crate::opening::{ConditionKind, Opening};
 use crate::overrides;
 use crate::reader::Reader;
 use crate::scene::{Field, Output, Run, Scene};
@@ -63,7 +63,7 @@ impl Builder<'_> {
             root.section("output").map(|section| self.output(section, &run, root.has("blood"), &wall));
         self.unique_names(root.sections("opening"));
         self.unique_names(root.sections("probe"));
-        self.outlets(root, &openings);
+        self.outlets(root);
         self.something_to_simulate(root, &wall);
         Some(Scene {
             file: self.source.file.clone(),
@@ -100,7 +100,7 @@ impl Builder<'_> {
 
     /// Blood that is nearly incompressible must be free to leave: where every opening prescribes its flow, the
     /// slightest mismatch of their sum would drive the pressure without bound.
-    fn outlets(&mut self, root: &Section, openings: &[Option<Opening>]) {
+    fn outlets(&mut self, root: &Section) {
         let sections = root.sections("opening");
         let Some(first) = sections.first() else { return };
         if !root.has("blood") {
@@ -108,9 +108,10 @@ impl Builder<'_> {
             let advice = "add `[blood]` or remove the openings".into();
             self.problems.push(Problem { advice, ..problem });
         }
-        let prescribed =
-            |opening: &Option<Opening>| opening.as_ref().is_some_and(|o| o.condition.prescribes_flow());
-        if openings.iter().all(prescribed) {
+        let prescribed = |section: &Section| {
+            matches!(section.word("condition"), Some(ConditionKind::Velocity | ConditionKind::Flow))
+        };
+        if sections.iter().all(prescribed) {
             let problem = self.source.problem(&first.spot, "opening", "every opening prescribes its flow");
             let allowed = "at least one of condition \"pressure\", \"resistance\" or \"windkessel\"".into();
             self.problems.push(Problem {

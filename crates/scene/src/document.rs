@@ -77,11 +77,18 @@ impl Source {
         if errors.is_empty() {
             return Ok(Node { content: table_of(table.get_ref(), &Spot::File), spot: NOWHERE });
         }
-        let problems = errors.iter().map(|error| {
-            let spot = error.span().map_or(NOWHERE, Spot::File);
-            Problem { advice: "correct the TOML syntax".into(), ..self.problem(&spot, "", error.message()) }
-        });
-        Err(problems.collect())
+        let mut problems: Vec<Problem> = errors
+            .iter()
+            .map(|error| {
+                let spot = error.span().map_or(NOWHERE, Spot::File);
+                Problem {
+                    advice: "correct the TOML syntax".into(),
+                    ..self.problem(&spot, "", error.message())
+                }
+            })
+            .collect();
+        problems.sort_by_key(|problem| (problem.line, problem.column));
+        Err(problems)
     }
 
     /// A problem at a spot, with what is written there as the value seen.

@@ -60,8 +60,7 @@ impl Builder<'_> {
             let advice = "take \"parabolic\" for steady flow";
             if !section.has("waveform") {
                 self.report(section, "profile", "needs a `waveform` to pulse with", "", advice);
-            }
-            if run.is_some_and(|run| run.period.is_none()) {
+            } else if run.is_some_and(|run| run.period.is_none()) {
                 self.report(
                     section,
                     "profile",

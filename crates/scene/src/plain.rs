@@ -9,15 +9,22 @@ use crate::kind::{Kind, Range};
 use crate::reader::Reader;
 use crate::section::Value;
 
+const OUT_OF_RANGE: &str = "change the value, or its unit if that is wrong";
+const COORDINATES: &str = "write x, y and z in the unit of the surface";
+
 impl Reader<'_> {
     /// Reads a value of a kind other than tables.
     pub(crate) fn plain(&mut self, kind: &Kind, shown: &str, node: &Node) -> Value {
         match (kind, &node.content) {
             (Kind::Text, Content::Text(text)) => Value::Text(text.clone()),
             (Kind::Name, Content::Text(text)) if is_name(text) => Value::Text(text.clone()),
-            (Kind::Name, Content::Text(_)) => {
-                self.refuse(kind, shown, &node.spot, "cannot be used as a name")
-            }
+            (Kind::Name, Content::Text(_)) => self.refuse(
+                kind,
+                shown,
+                &node.spot,
+                "cannot be used as a name",
+                "call it \"inlet_1\", for example",
+            ),
             (Kind::File, Content::Text(text)) => {
                 let path = self.directory.join(text);
                 if path.is_file() {
@@ -25,13 +32,21 @@ impl Reader<'_> {
                 }
                 let path = path.strip_prefix(".").unwrap_or(&path);
                 let message = format!("there is no file \"{}\"", path.display());
-                self.refuse(kind, shown, &node.spot, message)
+                self.refuse(
+                    kind,
+                    shown,
+                    &node.spot,
+                    message,
+                    "correct the path, which starts from the case folder",
+                )
             }
             (Kind::Flag, Content::Flag(flag)) => Value::Flag(*flag),
             (Kind::Count(low, high), Content::Integer(count)) if (low..=high).contains(&count) => {
                 Value::Count(*count)
             }
-            (Kind::Count(..), Content::Integer(_)) => self.refuse(kind, shown, &node.spot, "is out of range"),
+            (Kind::Count(..), Content::Integer(_)) => {
+                self.refuse(kind, shown, &node.spot, "is out of range", OUT_OF_RANGE)
+            }
             (Kind::Number(range), Content::Integer(_) | Content::Float(_)) => {
                 self.in_range(number(&node.content), *range, kind, shown, &node.spot)
             }
@@ -60,9 +75,21 @@ impl Reader<'_> {
                     if point.iter().all(|coordinate| coordinate.is_finite()) {
                         return Value::Point(point);
                     }
-                    self.refuse(kind, shown, &node.spot, "has a coordinate that is not a finite number")
+                    self.refuse(
+                        kind,
+                        shown,
+                        &node.spot,
+                        "has a coordinate that is not a finite number",
+                        COORDINATES,
+                    )
                 }
-                _ => self.refuse(kind, shown, &node.spot, format!("has {} coordinates", nodes.len())),
+                _ => self.refuse(
+                    kind,
+                    shown,
+                    &node.spot,
+                    format!("has {} coordinates", nodes.len()),
+                    COORDINATES,
+                ),
             },
             (_, content) => {
                 match (kind.dimension(), content) {
@@ -106,7 +133,7 @@ impl Reader<'_> {
         if range.contains(value) {
             Value::Number(value)
         } else {
-            self.refuse(kind, shown, spot, "is out of range")
+            self.refuse(kind, shown, spot, "is out of range", OUT_OF_RANGE)
         }
     }
 
@@ -118,7 +145,7 @@ impl Reader<'_> {
     }
 
     fn unknown_word(&mut self, text: &str, words: &[&str], kind: &Kind, shown: &str, spot: &Spot) -> Value {
-        self.refuse(kind, shown, spot, "is not one of the words allowed");
+        self.refuse(kind, shown, spot, "is not one of the words allowed", "take one of these");
         if let (Some(near), Some(problem)) = (nearest(text, words.iter().copied()), self.problems.last_mut())
         {
             problem.advice = format!("did you mean \"{near}\"?");
@@ -131,7 +158,7 @@ impl Reader<'_> {
         for node in nodes {
             match &node.content {
                 Content::Text(text) if chosen.contains(text) => {
-                    self.refuse(kind, shown, &node.spot, "is named twice");
+                    self.refuse(kind, shown, &node.spot, "is named twice", "name it once");
                 }
                 Content::Text(text) if words.contains(&text.as_str()) => chosen.push(text.clone()),
                 Content::Text(text) => {
@@ -141,14 +168,21 @@ impl Reader<'_> {
             }
         }
         if nodes.is_empty() {
-            self.refuse(kind, shown, spot, "is empty");
+            self.refuse(kind, shown, spot, "is empty", "name something, or remove the key");
         }
         Value::Words(chosen)
     }
 
-    fn refuse(&mut self, kind: &Kind, shown: &str, spot: &Spot, message: impl Into<String>) -> Value {
+    fn refuse(
+        &mut self,
+        kind: &Kind,
+        shown: &str,
+        spot: &Spot,
+        message: impl Into<String>,
+        advice: &str,
+    ) -> Value {
         let problem = self.source.problem(spot, shown, message);
-        self.problems.push(Problem { allowed: kind.words(), ..problem });
+        self.problems.push(Problem { allowed: kind.words(), advice: advice.into(), ..problem });
         Value::Bad
     }
 }
@@ -162,7 +196,7 @@ fn number(content: &Content) -> f64 {
 }
 
 /// A name goes into column titles and override keys; one made of digits would be taken for a number.
-fn is_name(text: &str) -> bool {
+pub(crate) fn is_name(text: &str) -> bool {
     let safe = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     !text.is_empty() && text.chars().all(safe) && !text.chars().all(|c| c.is_ascii_digit())
 }
@@ -174,7 +208,8 @@ fn with_units(number: &str, dimension: Dimension) -> String {
     format!("write the unit too, as in {}", examples.join(" or "))
 }
 
-fn units_in_use(dimension: Dimension) -> String {
+/// The units people write a dimension in.
+pub(crate) fn units_in_use(dimension: Dimension) -> String {
     let units: Vec<String> =
         dimension.units().iter().filter(|unit| !unit.is_empty()).map(|unit| format!("\"{unit}\"")).collect();
     if units.is_empty() { String::new() } else { format!("units in use: {}", units.join(", ")) }

@@ -8,6 +8,7 @@ use vaso_units::nearest;
 use crate::document::{Content, Entry, NOWHERE, Node, Source};
 use crate::error::Problem;
 use crate::kind::{Key, Kind, Presence, When};
+use crate::plain::{is_name, units_in_use};
 use crate::schema::KEYS;
 use crate::section::{Field, Section, Value};
 
@@ -109,7 +110,16 @@ impl Reader<'_> {
             Presence::Optional(_) => {}
             Presence::Required => {
                 let problem = self.source.problem(&section.spot, &section.key(name(key)), "is missing");
-                self.problems.push(Problem { seen: String::new(), allowed: key.kind.words(), ..problem });
+                let advice = match &key.kind {
+                    Kind::Table => format!("add `[{}]`", section.key(name(key))),
+                    kind => kind.dimension().map_or_else(String::new, units_in_use),
+                };
+                self.problems.push(Problem {
+                    seen: String::new(),
+                    allowed: key.kind.words(),
+                    advice,
+                    ..problem
+                });
             }
             Presence::Default(text) => {
                 let value = self.value(key, &section.key(name(key)), &default_node(&key.kind, text));
@@ -192,7 +202,7 @@ fn governing_word<'a>(governing: &str, keys: &[&Key], entries: &'a [Entry]) -> O
 fn element_name(entries: &[Entry], number: usize) -> String {
     let named =
         entries.iter().find(|entry| entry.key == "name").and_then(|entry| match &entry.node.content {
-            Content::Text(name) if !name.is_empty() => Some(name.clone()),
+            Content::Text(name) if is_name(name) => Some(name.clone()),
             _ => None,
         });
     named.unwrap_or_else(|| number.to_string())

@@ -1,12 +1,13 @@
 //! From SI values to text a person likes to read.
 
 use crate::dimension::{
-    COMPLIANCE, DENSITY, Dimension, FLOW_RATE, FREQUENCY, LENGTH, PRESSURE, RESISTANCE, VISCOSITY,
+    ANGLE, COMPLIANCE, DENSITY, Dimension, FLOW_RATE, FREQUENCY, LENGTH, PRESSURE, RESISTANCE, VISCOSITY,
 };
 
 /// Units to print in, where the list of units in use holds some that are rather read than written.
 fn units_to_print(dimension: Dimension) -> &'static [&'static str] {
     match dimension {
+        ANGLE => &["deg"],
         LENGTH => &["m", "mm", "um"],
         DENSITY => &["kg/m^3"],
         PRESSURE => &["Pa", "kPa", "MPa"],
@@ -31,7 +32,7 @@ pub fn pretty(value: f64, dimension: Dimension) -> String {
         let number = value / factor;
         (0.1..1000.0).contains(&number.abs()).then(|| (number, (*unit).to_owned()))
     });
-    let si = || candidates.first().map_or_else(|| dimension.to_string(), |unit| (*unit).to_owned());
+    let si = || dimension.units().first().map_or_else(|| dimension.to_string(), |unit| (*unit).to_owned());
     let (number, unit) = handy.unwrap_or_else(|| (value, si()));
     let digits = significant(number);
     if unit.is_empty() { digits } else { format!("{digits} {unit}") }
@@ -62,6 +63,7 @@ mod tests {
         assert_eq!(pretty(1.5e8, RESISTANCE), "1.5e8 Pa s/m^3");
         assert_eq!(pretty(0.012, TIME), "12 ms");
         assert_eq!(pretty(0.45, NUMBER), "0.45");
+        assert_eq!(pretty(std::f64::consts::FRAC_PI_2, ANGLE), "90 deg");
         assert_eq!(pretty(0.0, PRESSURE), "0 Pa");
         assert_eq!(pretty(-0.3, VELOCITY), "-0.3 m/s");
         assert_eq!(pretty(-0.03, VELOCITY), "-3 cm/s");

@@ -114,23 +114,30 @@ pub fn nearest<'a>(text: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein distance in thirds of a letter: an insertion, deletion or replacement costs 3, a change of case 1.
+/// Distance in thirds of a letter: an insertion, deletion or replacement and a swap of two neighbours cost 3 each, a
+/// change of case 1 (optimal string alignment, Damerau 1964).
 fn edit_distance(a: &[char], b: &[char]) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).map(|j| 3 * j).collect();
-    for (i, &letter_a) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = 3 * (i + 1);
-        for (j, &letter_b) in b.iter().enumerate() {
-            let replace = match (letter_a == letter_b, letter_a.eq_ignore_ascii_case(&letter_b)) {
-                (true, _) => 0,
-                (false, true) => 1,
-                (false, false) => 3,
+    let width = b.len() + 1;
+    let mut cost = vec![0; (a.len() + 1) * width];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            cost[i * width + j] = if i == 0 || j == 0 {
+                3 * (i + j)
+            } else {
+                let (letter_a, letter_b) = (a[i - 1], b[j - 1]);
+                let replace = match (letter_a == letter_b, letter_a.eq_ignore_ascii_case(&letter_b)) {
+                    (true, _) => 0,
+                    (false, true) => 1,
+                    (false, false) => 3,
+                };
+                let swapped = i > 1 && j > 1 && letter_a == b[j - 2] && a[i - 2] == letter_b;
+                let swap = if swapped { cost[(i - 2) * width + j - 2] + 3 } else { usize::MAX };
+                let replaced = cost[(i - 1) * width + j - 1] + replace;
+                replaced.min(cost[(i - 1) * width + j] + 3).min(cost[i * width + j - 1] + 3).min(swap)
             };
-            let cost = (diagonal + replace).min(row[j] + 3).min(row[j + 1] + 3);
-            diagonal = std::mem::replace(&mut row[j + 1], cost);
         }
     }
-    row[b.len()]
+    cost[a.len() * width + b.len()]
 }
 
 #[cfg(test)]
@@ -153,6 +160,7 @@ mod tests {
         assert_eq!(distance("kitten", "sitting"), 9);
         assert_eq!(distance("mmhg", "mmHg"), 1);
         assert_eq!(distance("", "ab"), 6);
+        assert_eq!(distance("valeu", "value"), 3);
     }
 
     #[test]
