@@ -151,7 +151,7 @@ pub(crate) fn deepest_sites(
 /// The part is that of a plane face parallel to the cube, which leaves an error of the second order in
 /// `cell` over the radius of curvature.
 pub(crate) fn volume(region: &impl Region, cell: f64) -> f64 {
-    let array = Array::new(region, Lattice::Cubic, cell, 2.0 * cell);
+    let array = Array::new(region, Lattice::Cubic, cell, cell);
     let cubes: Vec<f64> = (0..array.n_blocks())
         .into_par_iter()
         .map(|block| {

@@ -131,7 +131,6 @@ fn fill<R: Region>(
     let volume = region_volume / count as f64;
     let relaxation = Relaxation { region, kernel, spacing, volume };
     let iterations = relaxation.run(&mut position, steps, seed, progress);
-    relaxation.bound_exactly(&mut position);
     let mut quality = Quality::measure(&relaxation, &mut position, region_volume);
     quality.iterations = iterations;
     Ok(Body { position, volume, normal: Vec::new(), depth: Vec::new(), quality })

@@ -59,17 +59,19 @@ impl Quality {
         let mut neighbors = Neighbors::new(region.bounds(), kernel.support());
         neighbors.rebuild(position);
         let position = &*position;
+        let lattice_sum = kernel.lattice_sum(spacing);
         let sample = |i: usize, row: &[u32]| {
             let x = position[i];
             let distance = |&j: &u32| position[j as usize].distance(x);
             let faces = region.exact_faces(x);
             let deep = faces.clearance() > kernel.support();
-            let sum =
-                || volume * (kernel.value(0.0) + row.iter().map(|j| kernel.value(distance(j))).sum::<f64>());
+            let gradient =
+                relaxation.gradient_sum(x, row, position, 0.0) + faces.missing_gradient(&kernel);
+            let sum = || kernel.value(0.0) + row.iter().map(|j| kernel.value(distance(j))).sum::<f64>();
             Sample {
                 nearest: row.iter().map(distance).fold(kernel.support(), f64::min) / spacing,
-                residual: kernel.h * relaxation.residual(x, row, position, &faces).length(),
-                kernel_sum: deep.then(|| sum() / kernel.lattice_sum(spacing)),
+                residual: kernel.h * gradient.length(),
+                kernel_sum: deep.then(|| volume * sum() / lattice_sum),
             }
         };
         let samples: Vec<Sample> = neighbors

@@ -1,8 +1,10 @@
 //! Physics-driven relaxation: particles push each other apart until the kernel gradient sum is even.
 //!
-//! The step of Zhu, Zhang, Yu and Hu (J. Hydrodyn. 33, 2021), with two changes. What lies beyond the
-//! faces enters by the closed form of a half space, not by tabulated integrals; and the step factor is
-//! fixed, not scaled by the largest residual, so that the displacement really decays.
+//! The step of Zhu, Zhang, Yu and Hu (J. Hydrodyn. 33, 2021), with three changes. What lies beyond the
+//! faces enters by the closed form of a half space, not by tabulated integrals. The step factor is fixed,
+//! not scaled by the largest residual, so that the displacement really decays. And pairs that are much
+//! too close push harder than the kernel says: its gradient falls off below 0.65 spacings, which would
+//! leave a few pairs stuck together.
 
 use crate::faces::Faces;
 use crate::neighbors::{CHUNK, Neighbors};
@@ -18,14 +20,20 @@ const ALPHA: f64 = 0.2;
 const STEP_CAP: f64 = 0.1;
 /// Half-width of the random start displacement, in spacings: a perfect lattice would stay as it is.
 const JITTER: f64 = 0.05;
-/// Distance every particle keeps from each face, in spacings.
-const GAP: f64 = 0.5;
+/// Distance every particle keeps from each face, in spacings: half the distance between close-packed
+/// layers, sqrt(2/3) 2^(1/6) / 2, which is how particles arrange along a face.
+const GAP: f64 = 0.458;
+/// Distance below which pairs push harder, in spacings, by the fourth power of how much closer they are.
+const CLOSE: f64 = 0.85;
 /// Reach of the neighbour lists beyond the support, in spacings.
 const SKIN: f64 = 0.3;
 /// Mean displacement in a step at which the particles count as at rest, in spacings.
 const AT_REST: f64 = 1e-3;
 /// Steps over which the residual must fall, and by which share, to go on.
 const PATIENCE: (usize, f64) = (50, 0.01);
+/// Steps at the end that ask for the exact faces: bounding by them once and for all would push particles
+/// into others where the table rounds off an edge.
+const POLISH: usize = 10;
 
 /// What is relaxed: a region, and the kernel and volume of its particles.
 pub(crate) struct Relaxation<'a, R> {
@@ -35,6 +43,14 @@ pub(crate) struct Relaxation<'a, R> {
     pub(crate) spacing: f64,
     /// Volume of each particle \[m^3\].
     pub(crate) volume: f64,
+}
+
+/// Where the particles were when their neighbour lists were made.
+struct Listed {
+    neighbors: Neighbors,
+    position: Vec<DVec3>,
+    /// Whether the particle cannot feel a face before the lists are made again.
+    deep: Vec<bool>,
 }
 
 /// Sums over a chunk of particles, added up in chunk order.
@@ -62,58 +78,58 @@ impl<R: Region> Relaxation<'_, R> {
         let dp = self.spacing;
         position.par_iter_mut().enumerate().for_each(|(i, x)| {
             *x += JITTER * dp * random::unit_box(seed, i);
-            *x = self.bound(*x, |x| self.region.faces(x));
+            *x = self.bound(*x, |x| self.region.exact_faces(x));
         });
         let skin = SKIN * dp;
-        let mut neighbors = Neighbors::new(self.region.bounds(), self.kernel.support() + skin);
-        neighbors.rebuild(position);
-        let mut listed = position.clone();
+        let neighbors = Neighbors::new(self.region.bounds(), self.kernel.support() + skin);
+        let mut listed = Listed { neighbors, position: Vec::new(), deep: Vec::new() };
+        self.list(&mut listed, position);
         let mut next = position.clone();
         let mut residuals = Vec::with_capacity(steps);
-        let n = position.len() as f64;
+        let mut last = steps;
         for step in 1..=steps {
-            let sums = self.step(&neighbors, position, &listed, &mut next);
+            let sums = self.step(&listed, position, &mut next, step + POLISH > last);
             std::mem::swap(position, &mut next);
-            let mean = sums.displacement / (n * dp);
+            let mean = sums.displacement / (position.len() as f64 * dp);
             progress(step, mean);
             residuals.push(sums.residual);
+            if step == last {
+                break;
+            }
             if mean < AT_REST || stagnant(&residuals) {
-                return step;
+                last = last.min(step + POLISH);
             }
             if sums.drift > (0.5 * skin).powi(2) {
-                neighbors.rebuild(position);
-                listed.clone_from(position);
+                self.list(&mut listed, position);
             }
         }
-        steps
+        last
+    }
+
+    /// Sorts the particles and makes their neighbour lists.
+    fn list(&self, listed: &mut Listed, position: &mut Vec<DVec3>) {
+        listed.neighbors.rebuild(position);
+        listed.position.clone_from(position);
+        let depth = self.kernel.support() + SKIN * self.spacing;
+        let is_deep = |x: &DVec3| self.region.faces(*x).clearance() > depth;
+        position.par_iter().with_min_len(CHUNK).map(is_deep).collect_into_vec(&mut listed.deep);
     }
 
     /// Moves every particle once, from `position` to `next`.
-    fn step(
-        &self,
-        neighbors: &Neighbors,
-        position: &[DVec3],
-        listed: &[DVec3],
-        next: &mut [DVec3],
-    ) -> Partial {
-        let cap = STEP_CAP * self.spacing;
-        let h = self.kernel.h;
-        let partials: Vec<Partial> = next
-            .par_chunks_mut(CHUNK)
-            .zip(neighbors.chunks())
+    fn step(&self, listed: &Listed, position: &[DVec3], next: &mut [DVec3], exact: bool) -> Partial {
+        let chunks = next.par_chunks_mut(CHUNK).zip(listed.neighbors.chunks());
+        let partials: Vec<Partial> = chunks
             .enumerate()
             .map(|(c, (next, chunk))| {
                 let mut sums = Partial::default();
                 for (k, row) in chunk.rows().enumerate() {
                     let i = c * CHUNK + k;
                     let x = position[i];
-                    let gradient = self.residual(x, row, position, &self.region.faces(x));
-                    let push = -2.0 * ALPHA * h * h * gradient;
-                    let moved = x + push * (cap / push.length()).min(1.0);
-                    next[k] = self.bound(moved, |x| self.region.faces(x));
-                    sums.displacement += next[k].distance(x);
-                    sums.residual += h * h * gradient.length_squared();
-                    sums.drift = sums.drift.max(next[k].distance_squared(listed[i]));
+                    let (moved, residual) = self.moved(x, row, position, listed.deep[i], exact);
+                    next[k] = moved;
+                    sums.displacement += moved.distance(x);
+                    sums.residual += residual;
+                    sums.drift = sums.drift.max(moved.distance_squared(listed.position[i]));
                 }
                 sums
             })
@@ -125,16 +141,34 @@ impl<R: Region> Relaxation<'_, R> {
         })
     }
 
-    /// Kernel gradient sum at `x` with what lies beyond the faces \[1/m\]; zero where all is even.
-    pub(crate) fn residual(&self, x: DVec3, row: &[u32], position: &[DVec3], faces: &Faces) -> DVec3 {
+    /// Where a particle goes in one step, and its (h |G|)^2.
+    fn moved(&self, x: DVec3, row: &[u32], position: &[DVec3], deep: bool, exact: bool) -> (DVec3, f64) {
+        let faces = |x| if exact { self.near_faces(x) } else { self.region.faces(x) };
+        let felt = if deep { Faces::new() } else { faces(x) };
+        let (h, cap) = (self.kernel.h, STEP_CAP * self.spacing);
+        let gradient = self.gradient_sum(x, row, position, CLOSE) + felt.missing_gradient(&self.kernel);
+        let push = -2.0 * ALPHA * h * h * gradient;
+        let moved = x + push * (cap / push.length()).min(1.0);
+        // A step is shorter than the cap, so only particles nearer than that can come too close.
+        let may_need_bounding = felt.clearance() < GAP * self.spacing + 1.5 * cap;
+        let moved = if may_need_bounding { self.bound(moved, faces) } else { moved };
+        (moved, h * h * gradient.length_squared())
+    }
+
+    /// Kernel gradient sum at `x` \[1/m\] over the particles of `row`; pairs nearer than `close` spacings
+    /// count more, none for zero.
+    pub(crate) fn gradient_sum(&self, x: DVec3, row: &[u32], position: &[DVec3], close: f64) -> DVec3 {
         let per_support = 1.0 / self.kernel.support();
+        let close_squared = (close * self.spacing * per_support).powi(2);
         let mut sum = DVec3::ZERO;
         for &j in row {
             let d = (x - position[j as usize]) * per_support;
-            let u = (1.0 - d.length()).max(0.0);
-            sum += (u * u * u) * d;
+            let r_squared = d.length_squared().max(f64::MIN_POSITIVE);
+            let u = (1.0 - r_squared.sqrt()).max(0.0);
+            let stiff = (close_squared / r_squared).max(1.0);
+            sum += (u * u * u * stiff * stiff) * d;
         }
-        -self.volume * self.kernel.gradient_scale() * sum + faces.missing_gradient(&self.kernel)
+        -self.volume * self.kernel.gradient_scale() * sum
     }
 
     /// Moves `x` away from the faces it is too close to; twice, for the corners.
@@ -148,14 +182,10 @@ impl<R: Region> Relaxation<'_, R> {
         faces(x).push_inside(x, gap)
     }
 
-    /// Bounds all particles by the exact faces.
-    pub(crate) fn bound_exactly(&self, position: &mut [DVec3]) {
-        let reach = 2.0 * GAP * self.spacing;
-        position.par_iter_mut().for_each(|x| {
-            if self.region.faces(*x).clearance() < reach {
-                *x = self.bound(*x, |x| self.region.exact_faces(x));
-            }
-        });
+    /// The faces at `x`, exact where the bounding may need them.
+    fn near_faces(&self, x: DVec3) -> Faces {
+        let faces = self.region.faces(x);
+        if faces.clearance() < 2.0 * GAP * self.spacing { self.region.exact_faces(x) } else { faces }
     }
 }
 

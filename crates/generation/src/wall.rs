@@ -64,6 +64,9 @@ impl<'a> WallLayer<'a> {
 
     fn level_at(&self, x: DVec3, depth: f64, tolerance: f64) -> f64 {
         let layer = (-depth).max(depth - self.thickness);
+        if layer >= self.band() {
+            return layer;
+        }
         self.ends(x, depth, tolerance).fold(layer, |level, (before, _)| level.max(-before))
     }
 
