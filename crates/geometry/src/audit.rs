@@ -84,7 +84,7 @@ impl fmt::Display for Rejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Rejection::NotRound => "its border is too long for its area",
-            Rejection::NoCorner => "it does not meet the wall at an angle of 45 to 135 degrees",
+            Rejection::NoCorner => "it does not meet the wall at a corner of 45 to 135 degrees all around",
             Rejection::NoTubeBehind => "there is no tube behind it that ends in it",
             Rejection::SeveralBorders => "it has more than one border",
         })

@@ -6,7 +6,8 @@ use glam::DVec3;
 
 use crate::{
     audit::{FlatRegion, Rejection},
-    close::{CORNER_DEGREES, MIN_CAP_AREA},
+    close::MIN_CAP_AREA,
+    corner::Corner,
     opening::Opening,
     polygon,
     repair::{
@@ -135,12 +136,12 @@ impl Finder<'_> {
         let opening = Opening::from_loop(&points)?;
         let circularity =
             4.0 * std::f64::consts::PI * opening.area / polygon::perimeter(&opening.polygon).powi(2);
-        let border_angle = self.border_angle(triangles, &edges, opening.normal);
+        let corner = self.corner(triangles, &edges, opening.normal);
         let rejected = if circularity < MIN_CIRCULARITY {
             Some(Rejection::NotRound)
         } else if !one_border {
             Some(Rejection::SeveralBorders)
-        } else if !CORNER_DEGREES.contains(&border_angle.to_degrees()) {
+        } else if !corner.is_rim() {
             Some(Rejection::NoCorner)
         } else if !ends_a_tube(&opening, tree) {
             Some(Rejection::NoTubeBehind)
@@ -152,28 +153,25 @@ impl Finder<'_> {
             normal: opening.normal,
             area: opening.area,
             circularity,
-            border_angle,
+            border_angle: corner.mean,
             rejected,
         };
         Some((opening, region))
     }
 
-    /// Mean angle between `normal` and the triangles just outside the region, weighted by border length.
-    fn border_angle(&self, triangles: &[usize], edges: &Edges, normal: DVec3) -> f64 {
-        let (mut length, mut sum) = (0.0, 0.0);
+    /// The corner between a region and the triangles just outside it.
+    fn corner(&self, triangles: &[usize], edges: &Edges, normal: DVec3) -> Corner {
+        let mut border = Vec::new();
         for group in edges.groups() {
             let [side] = group else { continue };
             let t = triangles[side.triangle as usize];
             let outside = self.across[t][side.corner as usize];
-            if outside == NONE {
-                continue;
+            if outside != NONE {
+                let [a, b] = side.directed().map(|v| self.surface.vertices[v as usize]);
+                border.push((a.distance(b), self.surface.triangle_normal(outside as usize)));
             }
-            let [a, b] = side.directed().map(|v| self.surface.vertices[v as usize]);
-            let l = a.distance(b);
-            length += l;
-            sum += l * self.surface.triangle_normal(outside as usize).angle_between(normal);
         }
-        if length > 0.0 { sum / length } else { 0.0 }
+        Corner::between(normal, &border)
     }
 }
 

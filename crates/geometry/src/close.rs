@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::{
+    corner::Corner,
     opening::{Opening, loop_area_vector, project_all},
     polygon,
     repair::{edges::Edges, loops},
@@ -13,8 +14,6 @@ use crate::{
 const MAX_WARP: f64 = 0.25;
 /// An end smaller than this part of the area of the whole surface is a hole.
 pub(crate) const MIN_CAP_AREA: f64 = 1e-4;
-/// Angles between the normals of a cap and of the wall around it [degrees].
-pub(crate) const CORNER_DEGREES: std::ops::RangeInclusive<f64> = 45.0..=135.0;
 
 /// One closed loop.
 pub(crate) struct Closed {
@@ -39,11 +38,10 @@ pub(crate) fn close_loops(surface: &mut Surface) -> Vec<Closed> {
     let min_area = MIN_CAP_AREA * surface.area();
     let mut closed = Vec::new();
     for mut corners in loops::chain(&border) {
-        let (mut weight, mut wall) = (0.0, Vec::new());
+        let mut wall = Vec::new();
         for (i, &a) in corners.iter().enumerate() {
             let b = corners[(i + 1) % corners.len()];
             let length = surface.vertices[a as usize].distance(surface.vertices[b as usize]);
-            weight += length;
             wall.push((length, wall_normals.of([a, b])));
         }
         // The cap has to run against the wall along their common border.
@@ -58,11 +56,8 @@ pub(crate) fn close_loops(surface: &mut Surface) -> Vec<Closed> {
         let radius = (loop_area_vector(&points).length() / std::f64::consts::PI).sqrt();
         let is_end = |o: &Opening| {
             let warp = points.iter().map(|&p| o.depth(p).abs()).fold(0.0, f64::max);
-            let angle = wall.iter().map(|&(l, n)| l / weight * n.angle_between(o.normal)).sum::<f64>();
-            o.area > min_area
-                && warp < MAX_WARP * o.radius
-                && CORNER_DEGREES.contains(&angle.to_degrees())
-                && polygon::is_simple(&flat)
+            let corner = Corner::between(o.normal, &wall);
+            o.area > min_area && warp < MAX_WARP * o.radius && corner.is_rim() && polygon::is_simple(&flat)
         };
         closed.push(Closed {
             opening: opening.filter(is_end),

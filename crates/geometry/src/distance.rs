@@ -34,6 +34,7 @@ pub struct SignedDistance {
     tree: Bvh,
     /// Decides the side where normals cannot: surfaces that are not closed or not orientable.
     winding: Option<WindingTree>,
+    is_continuous: bool,
     /// Distance below which the direction to the nearest point is rounding error [m].
     on_surface: f64,
 }
@@ -49,7 +50,7 @@ impl SignedDistance {
     /// Distance to the whole closed surface, wall and caps: negative in the fluid.
     pub fn closed(vessel: &Vessel) -> SignedDistance {
         let trusted = vessel.audit.watertight && vessel.audit.orientable;
-        SignedDistance::new(&vessel.surface, |_| true, !trusted)
+        SignedDistance { is_continuous: trusted, ..SignedDistance::new(&vessel.surface, |_| true, !trusted) }
     }
 
     /// Distance to the wall only, caps left out: negative in the lumen.
@@ -71,6 +72,7 @@ impl SignedDistance {
         SignedDistance {
             normals: PseudoNormals::new(surface, &vertices),
             tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes),
+            is_continuous: false,
             winding: by_winding.then(|| WindingTree::new(&corners)),
             on_surface: 1e-9 * surface.diagonal(),
             corners,
@@ -104,16 +106,21 @@ impl SignedDistance {
     }
 
     /// As [`query`](Self::query), faster when triangle `guess` (of an earlier answer nearby) is near.
-    pub(crate) fn query_from(&self, x: DVec3, guess: Option<u32>) -> Nearest {
-        let leaf = guess.and_then(|id| self.ids.binary_search(&id).ok());
-        match leaf {
+    pub(crate) fn query_from(&self, x: DVec3, guess: u32) -> Nearest {
+        match self.ids.binary_search(&guess) {
             // A little more than the distance of the guess, so that the guess itself can be found.
-            Some(leaf) => {
+            Ok(leaf) => {
                 let reach = x.distance(self.project(leaf as u32, x).0) * (1.0 + 1e-9) + self.on_surface;
                 self.query_within(x, reach)
             }
-            None => self.query(x),
+            Err(_) => self.query(x),
         }
+    }
+
+    /// Whether the signed distance changes by no more than the way gone: that of a closed surface does, while
+    /// that of a wall alone changes its sign in front of an opening.
+    pub(crate) fn is_continuous(&self) -> bool {
+        self.is_continuous
     }
 
     /// Nearest point of one triangle and the feature it lies on.

@@ -60,14 +60,7 @@ impl DistanceGrid {
         let near: Vec<usize> = (0..n_blocks).filter(|&b| centers[b].0.abs() <= reach).collect();
         let mut values = vec![0.0; near.len() * BLOCK];
         values.par_chunks_mut(BLOCK).zip(&near).for_each(|(block, &b)| {
-            // Each node starts from the answer of the one before it, which is one spacing away.
-            let mut guess = Some(centers[b].1);
-            for (node, value) in block.iter_mut().enumerate() {
-                let nearest = distance.query_from(grid.block_origin(b) + spacing * snake(node), guess);
-                guess = Some(nearest.triangle);
-                *value = nearest.distance;
-            }
-            unsnake(block);
+            grid.fill(block, grid.block_origin(b), distance, centers[b].1);
         });
         let mut table: Vec<Slot> =
             centers.iter().map(|c| if c.0 < 0.0 { Slot::Inside } else { Slot::Outside }).collect();
@@ -77,6 +70,24 @@ impl DistanceGrid {
         grid.table = table;
         grid.values = values;
         grid
+    }
+
+    /// Writes the distances at the nodes of a block.
+    fn fill(&self, block: &mut [f64], corner: DVec3, distance: &SignedDistance, near: u32) {
+        // Each node starts from the answer of the one before it, which is one spacing away.
+        let mut guess = near;
+        let mut last = 0.0_f64;
+        for (node, value) in block.iter_mut().enumerate() {
+            // Distance changes by no more than the way gone, so nodes beyond the band need no query as long
+            // as the last one left enough of it. Not so in front of an open end, where the side may change.
+            last = last.signum() * (last.abs() - self.spacing);
+            if !distance.is_continuous() || last.abs() <= self.band + self.spacing {
+                let nearest = distance.query_from(corner + self.spacing * snake(node), guess);
+                (guess, last) = (nearest.triangle, nearest.distance);
+            }
+            *value = last;
+        }
+        unsnake(block);
     }
 
     /// Signed distance phi [m] and its unit gradient at `x`, by trilinear interpolation.
@@ -99,7 +110,10 @@ impl DistanceGrid {
         };
         let local = cell - block * CELLS as u32;
         let node = first + (local.z as usize * NODES + local.y as usize) * NODES + local.x as usize;
-        let v = &self.values[node..node + NODES * NODES + NODES + 2];
+        // One check of the range for all eight corners.
+        let Some(v) = self.values[node..].first_chunk::<{ NODES * NODES + NODES + 2 }>() else {
+            unreachable!("the last cell of a block ends at its last node")
+        };
         let edge = |k: usize| (v[k], v[k + 1] - v[k]);
         let [(a, da), (b, db), (c, dc), (d, dd)] =
             [edge(0), edge(NODES), edge(NODES * NODES), edge(NODES * NODES + NODES)];

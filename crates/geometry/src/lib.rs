@@ -3,6 +3,7 @@
 mod audit;
 mod caps;
 mod close;
+mod corner;
 mod distance;
 mod distance_grid;
 mod error;
@@ -11,6 +12,7 @@ mod polygon;
 mod pseudo_normal;
 mod read;
 mod repair;
+mod section;
 pub mod shapes;
 mod surface;
 mod unit;

@@ -1,0 +1,121 @@
+//! Sections of a vessel, measured on a grid of points inside it.
+
+use crate::distance::SignedDistance;
+use crate::distance_grid::DistanceGrid;
+use crate::vessel::Vessel;
+use glam::DVec3;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Grid points across the radius of the smallest opening.
+const POINTS_ACROSS: f64 = 5.0;
+/// Most grid points in the bounding box; a finer grid is coarsened to this.
+const MOST_POINTS: f64 = 4e6;
+/// Thickness of the slices whose volume gives an area, in grid spacings.
+const SLICE: f64 = 2.0;
+
+impl Vessel {
+    /// Smallest section area \[m^2\] that everything entering at the largest opening must pass,
+    /// that is, up to the nearest of the other openings; `None` with fewer than two openings.
+    ///
+    /// Slices are shells of equal path length inside the lumen; near a bend they are oblique, so the
+    /// area is good to about a tenth. Used to expect the speed in a throat, not to measure one.
+    pub fn narrowest_section(&self) -> Option<f64> {
+        let [inlet, others @ ..] = self.openings.as_slice() else { return None };
+        if others.is_empty() {
+            return None;
+        }
+        let smallest = self.openings.iter().map(|o| o.radius).fold(f64::INFINITY, f64::min);
+        let (low, high) = self.surface.bounds();
+        let extent = high - low;
+        let spacing = (smallest / POINTS_ACROSS).max((extent.x * extent.y * extent.z / MOST_POINTS).cbrt());
+        let grid = DistanceGrid::build(&SignedDistance::closed(self), (low, high), spacing, 2.0 * spacing);
+        let n: [usize; 3] = (extent / spacing).to_array().map(|e| e.ceil() as usize + 1);
+        let at = |k: usize| {
+            let [i, j, l] = [k % n[0], k / n[0] % n[1], k / (n[0] * n[1])];
+            low + spacing * DVec3::new(i as f64, j as f64, l as f64)
+        };
+        let total = n[0] * n[1] * n[2];
+        let inside: Vec<bool> = (0..total).map(|k| grid.sample(at(k)).0 < 0.0).collect();
+
+        // Path lengths as whole thousandths of the spacing, which makes their order exact.
+        let steps = neighbour_steps();
+        let mut length = vec![u64::MAX; total];
+        let mut front = BinaryHeap::new();
+        let near_cap = |k: usize, depth: f64| {
+            let o = inlet;
+            let x = at(k);
+            (0.0..depth).contains(&o.depth(x)) && o.lateral(x) < 0.0
+        };
+        for k in (0..total).filter(|&k| inside[k] && near_cap(k, 1.5 * spacing)) {
+            length[k] = (1000.0 * inlet.depth(at(k)) / spacing) as u64;
+            front.push(Reverse((length[k], k)));
+        }
+        while let Some(Reverse((reached, k))) = front.pop() {
+            if reached > length[k] {
+                continue;
+            }
+            let here = [k % n[0], k / n[0] % n[1], k / (n[0] * n[1])];
+            for &(step, cost) in &steps {
+                let there: [i64; 3] = std::array::from_fn(|a| here[a] as i64 + step[a]);
+                if (0..3).any(|a| there[a] < 0 || there[a] >= n[a] as i64) {
+                    continue;
+                }
+                let next = (there[2] as usize * n[1] + there[1] as usize) * n[0] + there[0] as usize;
+                if inside[next] && reached + cost < length[next] {
+                    length[next] = reached + cost;
+                    front.push(Reverse((length[next], next)));
+                }
+            }
+        }
+        let first_exit = (0..total)
+            .filter(|&k| length[k] < u64::MAX)
+            .filter(|&k| {
+                others.iter().any(|o| o.depth(at(k)).abs() < 1.5 * spacing && o.lateral(at(k)) < 0.0)
+            })
+            .map(|k| length[k])
+            .min()?;
+        let slice = (1000.0 * SLICE) as u64;
+        let mut count = vec![0_u64; (first_exit / slice) as usize];
+        for &l in length.iter().filter(|&&l| l < u64::MAX) {
+            if let Some(c) = count.get_mut((l / slice) as usize) {
+                *c += 1;
+            }
+        }
+        // The first slice touches the cap and is cut by it.
+        let fewest = count.iter().skip(1).min().copied()?;
+        Some(fewest as f64 * spacing * spacing / SLICE)
+    }
+}
+
+/// The 26 neighbours in a grid with the length of the step in thousandths.
+fn neighbour_steps() -> Vec<([i64; 3], u64)> {
+    let mut steps = Vec::new();
+    for l in -1..=1_i64 {
+        for j in -1..=1_i64 {
+            for i in -1..=1_i64 {
+                let squared = i * i + j * j + l * l;
+                if squared > 0 {
+                    steps.push(([i, j, l], (1000.0 * (squared as f64).sqrt()).round() as u64));
+                }
+            }
+        }
+    }
+    steps
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{LengthUnit, prepare, shapes};
+    use glam::DVec3;
+
+    #[test]
+    fn a_pipe_is_as_wide_as_its_caps() {
+        for axis in [DVec3::Z, DVec3::new(1.0, 2.0, 3.0).normalize()] {
+            let pipe = prepare(shapes::pipe(2e-3, 20e-3, axis, 64), Some(LengthUnit::Metre)).expect("a pipe");
+            let area = pipe.narrowest_section().expect("two openings");
+            let exact = std::f64::consts::PI * 4e-6;
+            assert!((area / exact - 1.0).abs() < 0.12, "{axis}: {area} against {exact}");
+        }
+    }
+}
