@@ -92,7 +92,7 @@ fn any_start_of_a_file_never_panics() {
     let folder = workplace();
     let case = folder.path().join("case");
     for text in good_texts() {
-        for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
+        for end in (0..text.len()).step_by(5).filter(|&end| text.is_char_boundary(end)) {
             load_text(&case, &text[..end]);
         }
     }
