@@ -14,8 +14,6 @@ pub(crate) struct ExtendedLumen {
     table: DistanceGrid,
     /// Box of the drawn-out surface, widened by the reach \[m\].
     pub(crate) bounds: (DVec3, DVec3),
-    /// Distance up to which the table tells the truth \[m\].
-    pub(crate) band: f64,
     /// By how much each opening is drawn out \[m\].
     pub(crate) length: Vec<f64>,
 }
@@ -35,7 +33,7 @@ impl ExtendedLumen {
         let exact = SignedDistance::closed(&extended);
         let table =
             DistanceGrid::build(&exact, (low - reach - spacing, high + reach + spacing), spacing, band);
-        Self { exact, table, bounds, band, length }
+        Self { exact, table, bounds, length }
     }
 
     /// Distance \[m\], negative inside, and its gradient, from the table.

@@ -40,7 +40,7 @@ impl<'a> Lumen<'a> {
     }
 
     fn level_at(&self, x: DVec3, wall: f64) -> f64 {
-        self.caps(x, self.band()).fold(wall, |level, (depth, _)| level.max(-depth))
+        self.caps(x, f64::INFINITY).fold(wall, |level, (depth, _)| level.max(-depth))
     }
 
     fn faces_at(&self, x: DVec3, (wall, outward): (f64, DVec3)) -> Faces {
@@ -56,10 +56,6 @@ impl<'a> Lumen<'a> {
 impl Region for Lumen<'_> {
     fn bounds(&self) -> (DVec3, DVec3) {
         self.bounds
-    }
-
-    fn band(&self) -> f64 {
-        self.wall.band
     }
 
     fn level(&self, x: DVec3) -> f64 {

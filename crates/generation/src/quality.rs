@@ -65,8 +65,7 @@ impl Quality {
             let distance = |&j: &u32| position[j as usize].distance(x);
             let faces = region.exact_faces(x);
             let deep = faces.clearance() > kernel.support();
-            let gradient =
-                relaxation.gradient_sum(x, row, position, 0.0) + faces.missing_gradient(&kernel);
+            let gradient = relaxation.gradient_sum(x, row, position, 0.0) + faces.missing_gradient(&kernel);
             let sum = || kernel.value(0.0) + row.iter().map(|j| kernel.value(distance(j))).sum::<f64>();
             Sample {
                 nearest: row.iter().map(distance).fold(kernel.support(), f64::min) / spacing,

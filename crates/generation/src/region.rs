@@ -11,15 +11,11 @@ pub(crate) trait Region: Sync {
     /// Lower and upper corner of a box around the region \[m\].
     fn bounds(&self) -> (DVec3, DVec3);
 
-    /// Signed distance to the border \[m\], negative inside; true near the border, clamped to
-    /// [`Self::band`] away from it.
+    /// Signed distance to the border \[m\], negative inside; told within two spacings of the border.
     fn level(&self, x: DVec3) -> f64;
 
-    /// As [`Self::level`] without interpolation.
+    /// As [`Self::level`] without interpolation, and everywhere.
     fn exact_level(&self, x: DVec3) -> f64;
-
-    /// Distance up to which [`Self::level`] is told \[m\].
-    fn band(&self) -> f64;
 
     /// The faces within reach of a kernel at `x`, from the table.
     fn faces(&self, x: DVec3) -> Faces;
