@@ -1,5 +1,6 @@
 //! Loading a case: the file, the overrides, then what must agree with what.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::build::Builder;
@@ -78,7 +79,16 @@ impl Builder<'_> {
             numerics: self.numerics(root.section("numerics")?)?,
             run: run?,
             output: output?,
+            written: self.written(root),
         })
+    }
+
+    fn written(&self, root: &Section) -> BTreeMap<String, Problem> {
+        let mut written = BTreeMap::new();
+        root.visit_written(&mut |key, spot| {
+            written.insert(key.to_owned(), self.source.problem(spot, key, ""));
+        });
+        written
     }
 
     fn unique_names(&mut self, sections: &[Section]) {

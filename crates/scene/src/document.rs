@@ -93,17 +93,8 @@ impl Source {
 
     /// A problem at a spot, with what is written there as the value seen.
     pub(crate) fn problem(&self, spot: &Spot, key: &str, message: impl Into<String>) -> Problem {
-        let mut problem = Problem {
-            file: self.file.clone(),
-            line: None,
-            column: None,
-            setting: None,
-            key: key.to_owned(),
-            message: message.into(),
-            seen: String::new(),
-            allowed: String::new(),
-            advice: String::new(),
-        };
+        let mut problem =
+            Problem { key: key.to_owned(), message: message.into(), ..Problem::of_file(self.file.clone()) };
         match spot {
             Spot::Override(number) => {
                 let (key, value) = &self.overrides[*number];

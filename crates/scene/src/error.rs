@@ -40,6 +40,23 @@ pub struct Problem {
     pub advice: String,
 }
 
+impl Problem {
+    /// A problem of a file as a whole, with nothing said yet.
+    pub(crate) fn of_file(file: PathBuf) -> Self {
+        Self {
+            file,
+            line: None,
+            column: None,
+            setting: None,
+            key: String::new(),
+            message: String::new(),
+            seen: String::new(),
+            allowed: String::new(),
+            advice: String::new(),
+        }
+    }
+}
+
 /// A block of lines: place, key and fault, then indented what was seen, what is allowed and what to do.
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

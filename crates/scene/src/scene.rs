@@ -1,8 +1,9 @@
 //! The validated case: data only, in SI units.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::error::SceneError;
+use crate::error::{Problem, SceneError};
 use crate::material::{Blood, Wall};
 use crate::opening::Opening;
 use crate::words::words;
@@ -35,6 +36,8 @@ pub struct Scene {
     pub run: Run,
     /// What to write and how often.
     pub output: Output,
+    /// Every key that was written, with its place and value as a problem without a message.
+    pub(crate) written: BTreeMap<String, Problem>,
 }
 
 impl Scene {
@@ -48,6 +51,18 @@ impl Scene {
     /// [`SceneError`] with every problem found: in the file, in the overrides and in the waveform tables.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         crate::check::load(path, overrides)
+    }
+
+    /// A problem with a key that shows only after loading, such as an opening the surface does not have; it names the
+    /// place like every other problem. For a key that was not written, the place is that of its table.
+    pub fn problem(&self, key: &str, message: impl Into<String>) -> Problem {
+        let written = self.written.get(key).cloned();
+        let place = written.or_else(|| {
+            let table = self.written.get(key.rsplit_once('.')?.0)?;
+            Some(Problem { seen: String::new(), ..table.clone() })
+        });
+        let place = place.unwrap_or_else(|| Problem::of_file(self.file.clone()));
+        Problem { key: key.to_owned(), message: message.into(), ..place }
     }
 }
 

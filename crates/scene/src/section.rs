@@ -55,6 +55,25 @@ impl Section {
         self.fields.get(name)
     }
 
+    /// Calls `visit` with the key to show and the place of everything that is written in this table and below.
+    pub(crate) fn visit_written(&self, visit: &mut dyn FnMut(&str, &Spot)) {
+        for (name, field) in &self.fields {
+            if let Some(spot) = &field.spot {
+                visit(&self.key(name), spot);
+            }
+            match &field.value {
+                Value::Section(section) => section.visit_written(visit),
+                Value::Sections(sections) => {
+                    for section in sections {
+                        visit(&section.shown, &section.spot);
+                        section.visit_written(visit);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// True when the key stands in the file or in an override, rightly or wrongly.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.field(name).is_some_and(|field| field.spot.is_some())

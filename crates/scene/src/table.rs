@@ -23,15 +23,11 @@ pub(crate) struct Table {
 /// `key` is the key of the case that names the file.
 pub(crate) fn read(file: &Path, key: &str, dimension: Dimension) -> Result<Table, Vec<Problem>> {
     let at = |line: Option<usize>, message: String| Problem {
-        file: file.to_owned(),
         line,
-        column: None,
-        setting: None,
         key: key.to_owned(),
         message,
-        seen: String::new(),
         allowed: "two columns, time in s and value in SI units".into(),
-        advice: String::new(),
+        ..Problem::of_file(file.to_owned())
     };
     let text =
         std::fs::read_to_string(file).map_err(|error| vec![at(None, format!("cannot be read: {error}"))])?;

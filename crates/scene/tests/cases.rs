@@ -279,6 +279,27 @@ fn a_problem_prints_as_a_block() {
 }
 
 #[test]
+fn later_problems_name_their_place_too() {
+    let overrides = [("opening.ica.near".to_owned(), "[9, 9, 9]".to_owned())];
+    let scene = Scene::load(Path::new("tests/good/contract.toml"), &overrides).unwrap();
+    let place = |key| {
+        let problem = scene.problem(key, "is far from every opening");
+        (problem.line, problem.column, problem.setting, problem.seen)
+    };
+    assert_eq!(place("opening.cca.near"), (Some(22), Some(8), None, "[0.0, 0.0, -20.0]".into()));
+    assert_eq!(
+        place("opening.ica.near"),
+        (None, None, Some("opening.ica.near=[9, 9, 9]".into()), "[9, 9, 9]".into())
+    );
+    assert_eq!(place("opening.cca.ramp"), (Some(20), Some(1), None, String::new()));
+    assert_eq!(place("wall.model"), (Some(18), Some(9), None, "\"rigid\"".into()));
+    assert_eq!(place("probe.p.at"), (None, None, None, String::new()));
+    let text = scene.problem("opening.cca.near", "is far from every opening").to_string();
+    let start = "tests/good/contract.toml:22:8: `opening.cca.near`: is far from every opening\n  seen     [0.0, 0.0, -20.0]";
+    assert_eq!(text, start);
+}
+
+#[test]
 fn every_problem_says_what_to_do() {
     for file in fs::read_dir("tests/bad").unwrap() {
         let error = Scene::load(&file.unwrap().path(), &[]).unwrap_err();
