@@ -15,7 +15,10 @@ pub(crate) fn beside(path: &Path, suffix: &str) -> PathBuf {
 /// Writes `bytes` to a neighbouring file, forces them to disk and renames it to `path`.
 ///
 /// Whatever happens, a reader finds the old content or the new one, never a part.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
+///
+/// # Errors
+/// [`IoError::System`] when the disk or the folder refuses.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     let draft = beside(path, "new");
     let written = File::create(&draft)
         .and_then(|mut file| {

@@ -15,6 +15,7 @@ mod summary;
 mod table;
 
 pub use archive::Archive;
+pub use atomic::write as write_whole;
 pub use cache::{Cache, CacheKey, KeyBuilder};
 pub use check::{CheckReport, EffectEntry, Numbers, OpeningEntry, Predicted, SurfaceReport};
 pub use error::IoError;

@@ -107,7 +107,13 @@ fn a_resumed_series_equals_an_unbroken_one() {
     frames[4..].iter().for_each(|frame| series.append(&frame.view()).unwrap());
     drop(series);
     assert_eq!(names(folder.path()), ["a.vtkhdf", "b.vtkhdf"]);
-    assert!(std::fs::read(&broken).unwrap() == std::fs::read(&unbroken).unwrap(), "the files differ");
+    // The C library does not promise equal bytes for equal content.
+    let bytes = |path: &Path| std::fs::read(path).unwrap();
+    assert!(cfg!(feature = "hdf5-c") || bytes(&broken) == bytes(&unbroken), "the files differ");
+    let (a, b) = (SeriesReader::open(&broken).unwrap(), SeriesReader::open(&unbroken).unwrap());
+    assert_eq!(a.info(), b.info());
+    (0..8).for_each(|k| assert_eq!(a.frame(k).unwrap(), b.frame(k).unwrap()));
+    drop((a, b));
 
     assert!(SeriesWriter::continue_at(&broken, -1.0).unwrap().is_empty());
     assert!(!broken.exists(), "no frame is left before the start, so no file is");

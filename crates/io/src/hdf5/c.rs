@@ -45,7 +45,7 @@ fn fill<T: H5Type>(dataset: &Dataset, start: usize, values: &[T]) -> Outcome<()>
         if !rest.is_empty() {
             return Err(format!("{} values do not make rows of {N}", values.len()));
         }
-        dataset.write_slice(rows, (start..start + rows.len(), ..)).map_err(words)
+        dataset.write_slice::<_, T, _, _>(rows, (start..start + rows.len(), ..)).map_err(words)
     }
     match dataset.shape()[..] {
         [_] => dataset.write_slice(values, start..start + values.len()).map_err(words),

@@ -1,0 +1,93 @@
+//! Text into HTML, with nothing from the run's files ever taken for markup.
+
+/// Text with the five characters that mean something in HTML made harmless.
+pub(crate) fn escape(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// A column of a table.
+pub(crate) enum Column {
+    /// Words, to the left.
+    Words(&'static str),
+    /// Numbers, to the right, with their unit.
+    Numbers(&'static str, &'static str),
+}
+
+/// A table; cells are HTML already.
+pub(crate) fn table(caption: &str, columns: &[Column], rows: &[Vec<String>]) -> String {
+    let class = |column: &Column| match column {
+        Column::Words(_) => "",
+        Column::Numbers(..) => " class=\"n\"",
+    };
+    let head: String = columns
+        .iter()
+        .map(|column| match column {
+            Column::Words(name) => format!("<th scope=\"col\">{}</th>", escape(name)),
+            Column::Numbers(name, "") => format!("<th scope=\"col\" class=\"n\">{}</th>", escape(name)),
+            Column::Numbers(name, unit) => {
+                format!("<th scope=\"col\" class=\"n\">{} <small>{}</small></th>", escape(name), escape(unit))
+            }
+        })
+        .collect();
+    let body: String = rows
+        .iter()
+        .map(|row| {
+            let cells: String = row
+                .iter()
+                .zip(columns)
+                .enumerate()
+                .map(|(k, (cell, column))| match k {
+                    0 => format!("<th scope=\"row\">{cell}</th>"),
+                    _ => format!("<td{}>{cell}</td>", class(column)),
+                })
+                .collect();
+            format!("<tr>{cells}</tr>\n")
+        })
+        .collect();
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\"><table><caption>{caption}</caption>\
+         <thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody></table></div>\n",
+        caption = escape(caption)
+    )
+}
+
+/// A section with a heading; empty content makes no section.
+pub(crate) fn section(id: &str, heading: &str, content: &str) -> String {
+    if content.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<section aria-labelledby=\"{id}\"><h2 id=\"{id}\">{}</h2>\n{content}</section>\n",
+        escape(heading)
+    )
+}
+
+/// A verdict in a word and a colour; the word carries the meaning.
+pub(crate) fn verdict(class: &str, word: &str) -> String {
+    format!("<span class=\"verdict {class}\">{}</span>", escape(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_cannot_become_markup() {
+        let hostile = "<script>alert('x')</script> & \"more\"";
+        let safe = escape(hostile);
+        assert!(!safe.contains('<') && !safe.contains('"') && !safe.contains('\''), "{safe}");
+        let html = table(hostile, &[Column::Words("name")], &[vec![escape(hostile)]]);
+        assert!(!html.contains("<script"), "{html}");
+    }
+}

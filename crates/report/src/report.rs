@@ -1,0 +1,77 @@
+//! The page as a whole.
+
+use crate::ReportError;
+use crate::chart::{Curve, chart};
+use crate::html::{escape, section};
+use crate::{limits, sections, vessel};
+use std::path::{Path, PathBuf};
+use vaso_io::{Summary, TableData, read_table, write_whole};
+
+/// Makes `report.html` in the output folder of a run and returns its path.
+///
+/// The page is one file that needs no network and no script. It is made from `summary.json`, and from
+/// `openings.csv`, `fluid.vtkhdf` and `wall.vtkhdf` as far as they exist: a part that cannot be read is
+/// replaced by the reason, so that a run that broke down still gets its report.
+///
+/// # Errors
+/// [`ReportError::Io`] when `summary.json` cannot be read or the page cannot be written.
+pub fn write_report(out_dir: &Path) -> Result<PathBuf, ReportError> {
+    let summary = Summary::read(&out_dir.join("summary.json"))?;
+    let path = out_dir.join("report.html");
+    write_whole(&path, page(out_dir, &summary).as_bytes())?;
+    Ok(path)
+}
+
+fn page(out: &Path, summary: &Summary) -> String {
+    let body = [
+        sections::head(summary),
+        section("vessel", "The vessel", &vessel::figures(out, summary.spacing_m)),
+        section(
+            "openings",
+            "Openings",
+            &(waveforms(&out.join("openings.csv")) + &sections::openings(summary)),
+        ),
+        section("stability", "Stability", &sections::stability(summary)),
+        section("cost", "Plan and cost", &sections::effects(summary)),
+        section("scene", "Scene", &sections::scene(summary)),
+        section("limits", "What this does not prove", &limits::limits(summary)),
+    ];
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{} – vaso</title>\n<style>\n{}</style>\n</head>\n\
+         <body>\n<main>\n{}</main>\n<footer><small>Made by vaso {} from <code>summary.json</code>, \
+         <code>openings.csv</code> and the particle series beside this file. Quantities are SI or marked with \
+         their unit.</small></footer>\n</body>\n</html>\n",
+        escape(&summary.case),
+        include_str!("style.css"),
+        body.concat(),
+        escape(&summary.vaso_version)
+    )
+}
+
+/// Flow and pressure of every opening against time.
+fn waveforms(path: &Path) -> String {
+    if !path.exists() {
+        return String::new();
+    }
+    let data = match read_table(path) {
+        Ok(data) => data,
+        Err(error) => return format!("<p class=\"note\">No waveforms: {}</p>\n", escape(&error.to_string())),
+    };
+    chart("Flow", "ml/s, positive out of the vessel", &curves(&data, ".flow_m3_s", 1e6))
+        + &chart("Pressure", "kPa", &curves(&data, ".pressure_pa", 1e-3))
+}
+
+/// The columns with a suffix as curves named by what comes before it.
+fn curves(data: &TableData, suffix: &str, factor: f64) -> Vec<Curve> {
+    data.header
+        .iter()
+        .enumerate()
+        .filter_map(|(k, column)| Some((k, column.strip_suffix(suffix)?)))
+        .map(|(k, name)| Curve {
+            name: name.to_owned(),
+            points: data.rows.iter().map(|row| (row[0], factor * row[k])).collect(),
+        })
+        .collect()
+}

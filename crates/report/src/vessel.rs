@@ -1,0 +1,114 @@
+//! The pictures of the vessel as figures of the page.
+
+use crate::ReportError;
+use crate::color::css_gradient;
+use crate::html::escape;
+use crate::picture::{PictureOptions, Quantity, Style, VesselPicture, draw};
+use crate::scale::{number, ticks};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use std::path::Path;
+use vaso_io::{FrameData, SeriesReader};
+
+/// Width of the pictures \[pixels\]: twice what a page shows, for sharp screens.
+const WIDTH: u32 = 1400;
+
+/// Figures of the last frames of the fluid and wall series in a folder; a note where there is nothing to draw.
+pub(crate) fn figures(out: &Path, spacing: f64) -> String {
+    let options = |quantity, style| PictureOptions { quantity, style, width: WIDTH, spacing: Some(spacing) };
+    let mut html = String::new();
+    let fluid = out.join("fluid.vtkhdf");
+    if fluid.exists() {
+        html += &series(
+            &fluid,
+            &[
+                ("Speed, cut along the middle of the vessel", options(Quantity::Speed, Style::Cut)),
+                (
+                    "Largest speed along each line of sight, seen from the side",
+                    options(Quantity::Speed, Style::Peak),
+                ),
+                ("Pressure, cut along the middle of the vessel", options(Quantity::Pressure, Style::Cut)),
+            ],
+        );
+    }
+    let wall = out.join("wall.vtkhdf");
+    let has_shear = SeriesReader::open(&wall)
+        .is_ok_and(|reader| reader.info().fields.iter().any(|field| field.name == vaso_io::schema::WSS));
+    if has_shear {
+        html += &series(&wall, &[("Wall shear stress", options(Quantity::WallShear, Style::Outside))]);
+    }
+    html
+}
+
+/// One figure a view of the last frame; what cannot be read is said in its place, the rest of the page stands.
+fn series(path: &Path, views: &[(&str, PictureOptions)]) -> String {
+    let frame = SeriesReader::open(path).and_then(|reader| reader.last_frame());
+    let frame = match frame {
+        Ok(Some(frame)) => frame,
+        Ok(None) => return note(&ReportError::NoFrame { path: path.to_owned() }),
+        Err(error) => return note(&error.into()),
+    };
+    views
+        .iter()
+        .map(|(title, options)| figure(&frame, path, title, options).unwrap_or_else(|error| note(&error)))
+        .collect()
+}
+
+fn note(error: &ReportError) -> String {
+    format!("<p class=\"note\">No picture: {}</p>\n", escape(&error.to_string()))
+}
+
+fn figure(
+    frame: &FrameData,
+    path: &Path,
+    title: &str,
+    options: &PictureOptions,
+) -> Result<String, ReportError> {
+    let drawn = draw(frame, path, options)?;
+    let (quantity, unit) = (options.quantity.name(), options.quantity.unit());
+    let time = number(frame.time, 4);
+    let alternative = format!(
+        "{title} at {time} s: {} particles coloured by {quantity} from {} to {} {unit}",
+        frame.position.len(),
+        number(drawn.low, 3),
+        number(drawn.high, 3)
+    );
+    Ok(format!(
+        "<figure class=\"vessel\"><figcaption><b>{}</b> <small>at {time} s</small></figcaption>\
+         <img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">{}{}</figure>\n",
+        escape(title),
+        drawn.picture.width,
+        drawn.picture.height,
+        escape(&alternative),
+        STANDARD.encode(drawn.picture.to_png()?),
+        color_bar(&drawn, quantity, unit),
+        ruler(&drawn)
+    ))
+}
+
+fn color_bar(drawn: &VesselPicture, quantity: &str, unit: &str) -> String {
+    let labels: String = drawn
+        .ticks
+        .iter()
+        .map(|tick| {
+            let percent = 100.0 * (tick - drawn.low) / (drawn.high - drawn.low);
+            format!("<span style=\"bottom:{percent:.2}%\">{}</span>", number(*tick, 4))
+        })
+        .collect();
+    format!(
+        "<div class=\"bar\" aria-hidden=\"true\">{quantity}<small>{unit}</small>\
+         <div class=\"map\" style=\"background:{}\">{labels}</div></div>",
+        css_gradient()
+    )
+}
+
+/// A line of round length, to judge sizes by.
+fn ruler(drawn: &VesselPicture) -> String {
+    let width = f64::from(drawn.picture.width) * drawn.pixel * 1e3;
+    let length = ticks(0.0, width / 6.0, 1)[1];
+    format!(
+        "<div class=\"ruler\"><i style=\"width:{:.2}%\"></i>{} mm</div>",
+        100.0 * length / width,
+        number(length, 3)
+    )
+}
