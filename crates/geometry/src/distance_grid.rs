@@ -18,6 +18,10 @@ pub struct DistanceGrid {
     origin: DVec3,
     spacing: f64,
     band: f64,
+    /// Reciprocal of the spacing.
+    nodes_per_length: f64,
+    /// Upper limit of a place in nodes: below the last node, so that its cell is a cell of the last block.
+    last: DVec3,
     /// Blocks along each axis.
     blocks: UVec3,
     /// For each block its first value in `values`, or the side of a far one.
@@ -45,8 +49,16 @@ impl DistanceGrid {
         let block_size = CELLS as f64 * spacing;
         let blocks = ((bounds.1 - bounds.0) / block_size).ceil().max(DVec3::ONE).as_uvec3();
         let n_blocks = blocks.x as usize * blocks.y as usize * blocks.z as usize;
-        let mut grid =
-            DistanceGrid { origin: bounds.0, spacing, band, blocks, table: Vec::new(), values: Vec::new() };
+        let mut grid = DistanceGrid {
+            origin: bounds.0,
+            spacing,
+            band,
+            nodes_per_length: spacing.recip(),
+            last: (blocks * CELLS as u32).as_dvec3() - 1e-9,
+            blocks,
+            table: Vec::new(),
+            values: Vec::new(),
+        };
 
         // A block can hold a point of the band only if its centre is nearer than the band and half a diagonal.
         let reach = band + 0.5 * 3f64.sqrt() * block_size;
@@ -96,12 +108,10 @@ impl DistanceGrid {
     /// those of the nearest point of the bounds.
     #[inline]
     pub fn sample(&self, x: DVec3) -> (f64, DVec3) {
-        let cells = (self.blocks * CELLS as u32).as_dvec3();
-        // The upper limit stays below the last node, so that its cell is a cell of the last block.
-        let at = ((x - self.origin) / self.spacing).clamp(DVec3::ZERO, cells - 1e-9);
+        let at = ((x - self.origin) * self.nodes_per_length).max(DVec3::ZERO).min(self.last);
         let cell = at.as_uvec3();
         let f = at - cell.as_dvec3();
-        let block = cell / CELLS as u32;
+        let block = cell >> CELLS.ilog2();
         let number = (block.z * self.blocks.y + block.y) * self.blocks.x + block.x;
         let first = match self.table[number as usize] {
             Slot::Near(k) => k as usize * BLOCK,

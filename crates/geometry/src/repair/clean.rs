@@ -2,7 +2,10 @@
 
 use std::{collections::BTreeMap, ops::AddAssign};
 
-use super::edges::{Edges, NONE};
+use super::{
+    edges::{Edges, NONE},
+    flip::flip,
+};
 use crate::surface::Surface;
 
 /// A triangle below this part of the squared diagonal has no area to speak of. Relative, because an
@@ -119,7 +122,8 @@ pub(crate) fn flip_slivers(surface: &mut Surface) -> usize {
         let mut touched = vec![false; surface.triangles.len()];
         let before = flipped;
         for t in slivers {
-            flipped += usize::from(flip(surface, t, &across, &mut touched));
+            let longest = longest_side(surface, t);
+            flipped += usize::from(flip(&mut surface.triangles, t, longest, &across, &mut touched));
         }
         if flipped == before {
             break;
@@ -128,35 +132,11 @@ pub(crate) fn flip_slivers(surface: &mut Surface) -> usize {
     flipped
 }
 
-/// Exchanges the longest side of triangle `t`; false where that cannot be done, or not in this round because
-/// `across` is out of date for one of the two triangles.
-fn flip(surface: &mut Surface, t: usize, across: &[[u32; 3]], touched: &mut [bool]) -> bool {
-    let corners = surface.triangles[t];
-    let place = corners.map(|v| surface.vertices[v as usize]);
+/// The corner of a triangle at which its longest side starts.
+fn longest_side(surface: &Surface, t: usize) -> usize {
+    let place = surface.triangle(t);
     let length = |k: usize| place[k].distance(place[(k + 1) % 3]);
-    let longest = (0..3).max_by(|&i, &j| length(i).total_cmp(&length(j))).unwrap_or(0);
-    let other = across[t][longest];
-    if other == NONE || touched[t] || touched[other as usize] {
-        return false;
-    }
-    let [a, b, apex] = [0, 1, 2].map(|k| corners[(longest + k) % 3]);
-    let Some(&far) = surface.triangles[other as usize].iter().find(|&&v| v != a && v != b) else {
-        return false;
-    };
-    let joined = |t: &[u32; 3]| t.contains(&apex) && t.contains(&far);
-    // A diagonal that exists already would become an edge of four triangles.
-    if far == apex || surface.triangles.iter().any(joined) {
-        return false;
-    }
-    for changed in [t, other as usize] {
-        touched[changed] = true;
-        for near in across[changed].into_iter().filter(|&n| n != NONE) {
-            touched[near as usize] = true;
-        }
-    }
-    surface.triangles[t] = [a, far, apex];
-    surface.triangles[other as usize] = [far, b, apex];
-    true
+    (0..3).max_by(|&i, &j| length(i).total_cmp(&length(j))).unwrap_or(0)
 }
 
 #[cfg(test)]

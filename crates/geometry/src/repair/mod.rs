@@ -2,6 +2,7 @@
 
 pub(crate) mod clean;
 pub(crate) mod edges;
+pub(crate) mod flip;
 pub(crate) mod loops;
 pub(crate) mod orient;
 pub(crate) mod weld;
