@@ -43,7 +43,7 @@ fn go<R: Real>(vessel: &Vessel, f: vaso_generation::Body, w: vaso_generation::Bo
     let op = Openings::new(vec![(inlet, Condition::Velocity { profile: Profile::Parabolic, mean: Signal { source: Source::Constant(um), ramp: 0.1 } }), (outlet, Condition::Pressure { value: Signal::constant(0.0) })], &num, true);
     let mut flow = Flow::new(fl, op, false);
     let t0 = std::time::Instant::now();
-    let mut next = 0.0;
+    let mut next = 0.0; let mut last = (0.0, [0.0; 2]); let mut acc = [0.0f64; 3];
     let (mut e2, mut tr, mut n, mut qs, mut ns) = (0.0, 0.0, 0.0, 0.0, 0.0);
     let mut pbin = vec![(0.0, 0.0); (l / dp) as usize + 1];
     while flow.time < tend {
@@ -58,7 +58,8 @@ fn go<R: Real>(vessel: &Vessel, f: vaso_generation::Body, w: vaso_generation::Bo
             }
             e2 += a2; tr += t2; n += m; qs += qq / q; ns += 1.0;
         }
-        if flow.time >= next { next += tend / 10.0;
+        acc[0] -= flow.readings[0].flow; acc[1] += flow.readings[1].flow; acc[2] += 1.0;
+        if flow.time >= next { let v: Vec<f64> = flow.openings.ports().iter().map(|p| p.counters.outflow_volume).collect(); println!("   counters in {:.4} out {:.4} mean readings {:.4} {:.4}", -(v[0] - last.1[0]) / (flow.time - last.0) / q, (v[1] - last.1[1]) / (flow.time - last.0) / q, acc[0]/acc[2]/q, acc[1]/acc[2]/q); last = (flow.time, [v[0], v[1]]); acc = [0.0; 3]; next += tend / 10.0;
             println!("t {:.3} N {:+.2}% qin {:.4} qout {:.4} dens {:.4} mach {:.3} ret {} esc {} strays {:?} steps {} {} wall {:.1}s {:.2}M/s", flow.time, 100.0 * (flow.fluid.state.len() as f64 / n0 as f64 - 1.0), -flow.readings[0].flow / q, flow.readings[1].flow / q, flow.watch.max_density_error, flow.watch.max_mach, flow.watch.returned, flow.watch.escaped, flow.openings.ports().iter().map(|p| p.counters.strays).collect::<Vec<_>>(), flow.advective_steps, flow.acoustic_steps, t0.elapsed().as_secs_f64(), flow.particle_substeps as f64 / t0.elapsed().as_secs_f64() / 1e6);
         }
     }

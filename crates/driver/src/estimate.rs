@@ -1,0 +1,142 @@
+//! What can be said about a flow before it runs: top speed, pressure range, size and cost.
+
+use crate::case::Case;
+use crate::plan::PlannedOpening;
+use std::f64::consts::PI;
+use vaso_boundary::Condition;
+use vaso_fluid::Numbers;
+use vaso_geometry::Vessel;
+use vaso_io::{ParticleCounts, Predicted};
+use vaso_scene::Precision;
+
+/// Expected range of a flow.
+#[derive(Clone, Debug)]
+pub struct Flow {
+    /// Largest speed expected anywhere \[m/s\].
+    pub top_speed: f64,
+    /// Where that speed is expected.
+    pub top_speed_reason: String,
+    /// Largest pressure difference the equation of state must carry \[Pa\].
+    pub pressure_range: f64,
+    /// What causes it.
+    pub pressure_reason: String,
+    /// Peak Reynolds number at the largest inlet.
+    pub reynolds_peak: f64,
+    /// Radius of the largest inlet \[m\].
+    pub inlet_radius: f64,
+    /// Radius of the smallest opening \[m\].
+    pub smallest_radius: f64,
+}
+
+impl Flow {
+    /// Estimates the flow through `vessel`.
+    ///
+    /// Outlets are taken to share the inflow by area with a parabolic peak of twice the mean; the
+    /// narrowest section before the first outlet carries all of it.
+    pub fn new(vessel: &Vessel, openings: &[PlannedOpening], density: f64, viscosity: f64, ramp: f64) -> Self {
+        let mut inflow = 0.0;
+        let mut top_speed: f64 = 0.0;
+        let mut reason = String::from("no inflow");
+        let mut inlet: Option<(f64, f64)> = None;
+        let mut outlet_area = 0.0;
+        let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for port in openings {
+            match &port.condition {
+                Condition::Velocity { profile, mean } => {
+                    let peak = mean.peak();
+                    inflow += peak * port.opening.area;
+                    if profile.peak() * peak > top_speed {
+                        top_speed = profile.peak() * peak;
+                        reason = format!("the profile at `{}`", port.name);
+                    }
+                    if inlet.is_none_or(|(radius, _)| port.opening.radius > radius) {
+                        inlet = Some((port.opening.radius, peak));
+                    }
+                }
+                Condition::Pressure { value } => {
+                    outlet_area += port.opening.area;
+                    let (low, high) = value.range();
+                    (lowest, highest) = (lowest.min(low), highest.max(high));
+                }
+            }
+        }
+        let imposed = if highest > lowest { highest - lowest } else { 0.0 };
+        let smallest_radius = openings.iter().map(|o| o.opening.radius).fold(f64::INFINITY, f64::min);
+        let (low, high) = vessel.surface.bounds();
+        let length = (high - low).length();
+        let inlet_radius = inlet.map_or(smallest_radius, |i| i.0);
+        if outlet_area > 0.0 && PARABOLIC * inflow / outlet_area > top_speed {
+            top_speed = PARABOLIC * inflow / outlet_area;
+            reason = "the outlets sharing the inflow by area".to_owned();
+        }
+        // Mean section of the whole vessel: a throat shows in it only if it is long, so the run watches the Mach number.
+        let narrowest = vessel.narrowest_section().unwrap_or(f64::INFINITY);
+        if PARABOLIC * inflow / narrowest > top_speed {
+            top_speed = PARABOLIC * inflow / narrowest;
+            reason = format!("the narrowest section of {:.2} mm^2", narrowest * 1e6);
+        }
+        // A flow driven by pressure alone cannot be faster than Bernoulli, nor than Poiseuille.
+        if inlet.is_none() {
+            let bernoulli = (2.0 * imposed / density).sqrt();
+            let poiseuille = imposed * smallest_radius * smallest_radius / (4.0 * viscosity * length);
+            top_speed = bernoulli.min(poiseuille);
+            reason = "the pressure difference between the openings".to_owned();
+        }
+        let mean = top_speed / PARABOLIC;
+        let friction = 8.0 * viscosity * mean * length / (smallest_radius * smallest_radius);
+        let inertia = if ramp > 0.0 { density * length * mean * PI / (2.0 * ramp) } else { 0.0 };
+        let dynamic = 0.5 * density * top_speed * top_speed;
+        let parts = [
+            (imposed, "the imposed pressures"),
+            (friction, "friction along the vessel"),
+            (inertia, "the start of the inflow"),
+            (dynamic, "the dynamic pressure"),
+        ];
+        let cause = parts.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or("", |p| p.1);
+        let reynolds_peak =
+            inlet.map_or(density * mean * 2.0 * smallest_radius / viscosity, |(r, u)| density * u * 2.0 * r / viscosity);
+        Self {
+            top_speed,
+            top_speed_reason: reason,
+            pressure_range: imposed + friction.max(inertia) + dynamic,
+            pressure_reason: format!("mostly {cause}"),
+            reynolds_peak,
+            inlet_radius,
+            smallest_radius,
+        }
+    }
+}
+
+/// Peak over mean of a developed profile.
+const PARABOLIC: f64 = 2.0;
+/// Time a fluid particle takes a core for one acoustic step, all in \[s\]: measured, see `docs/speed.md`.
+const SUBSTEP_MIXED: f64 = 0.45e-6;
+const SUBSTEP_DOUBLE: f64 = 0.85e-6;
+/// Bytes a fluid particle takes, rows included.
+const BYTES_MIXED: f64 = 1500.0;
+const BYTES_DOUBLE: f64 = 2100.0;
+/// Bytes a wall particle takes.
+const BYTES_WALL: f64 = 400.0;
+
+/// Expected particles, memory and time of a run.
+pub fn cost(case: &Case, numbers: &Numbers, precision: Precision, end_time: f64) -> Predicted {
+    let spacing = numbers.spacing;
+    let fluid = case.vessel.surface.volume() / spacing.powi(3);
+    let layer = vaso_generation::WALL_LAYERS * spacing;
+    // A curved wall has more volume outside than a flat one: 1 + t / 2R, with R = 2V/A of a tube.
+    let area = case.vessel.wall_area();
+    let radius = 2.0 * case.vessel.surface.volume() / area;
+    let collars: f64 = case.vessel.openings.iter().map(|o| 2.0 * PI * o.radius * 2.0 * numbers.smoothing_length).sum();
+    let wall = (area + collars) * layer * (1.0 + 0.5 * layer / radius) / spacing.powi(3);
+    let step = numbers.acoustic_step(0.5 * numbers.reference_speed);
+    let (substep, bytes) = match precision {
+        Precision::Mixed => (SUBSTEP_MIXED, BYTES_MIXED),
+        Precision::Double => (SUBSTEP_DOUBLE, BYTES_DOUBLE),
+    };
+    let threads = rayon::current_num_threads() as f64;
+    Predicted {
+        particles: ParticleCounts { fluid: fluid.round() as u64, wall: wall.round() as u64, shell: 0 },
+        memory_bytes: (fluid * bytes + wall * BYTES_WALL) as u64,
+        wall_clock_s: fluid * (end_time / step) * substep / threads,
+    }
+}

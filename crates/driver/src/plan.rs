@@ -1,0 +1,207 @@
+//! From a case to a plan: which effects run, with which numbers, why, and at what expected cost.
+
+use crate::case::Case;
+use crate::error::DriverError;
+use crate::estimate;
+use crate::supported;
+use glam::DVec3;
+use vaso_boundary::{Condition, Profile, Signal, Source, Waveform};
+use vaso_fluid::{Isa, Numbers};
+use vaso_io::{EffectEntry, Predicted};
+use vaso_scene::{Drive, Precision};
+
+/// One opening as it will run.
+#[derive(Clone, Debug)]
+pub struct PlannedOpening {
+    /// Name from the case.
+    pub name: String,
+    /// Cap of the vessel.
+    pub opening: vaso_geometry::Opening,
+    /// What is imposed.
+    pub condition: Condition,
+}
+
+/// What will run.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Numbers of the fluid.
+    pub numbers: Numbers,
+    /// Why the sound speed is what it is.
+    pub sound_speed_reason: String,
+    /// Openings with their conditions, largest first.
+    pub openings: Vec<PlannedOpening>,
+    /// Whether the reference pressure follows an outlet instead of staying in the equation of state.
+    pub take_out_pressure: bool,
+    /// Arithmetic of the pair loops.
+    pub precision: Precision,
+    /// Instruction set of the pair loops.
+    pub isa: Isa,
+    /// Time over which inlets are ramped \[s\].
+    pub ramp: f64,
+    /// End of the run \[s\].
+    pub end_time: f64,
+    /// Peak Reynolds number at the inlet.
+    pub reynolds_peak: f64,
+    /// Womersley number at the inlet, for pulsatile flow.
+    pub womersley: Option<f64>,
+    /// Every effect the program knows.
+    pub effects: Vec<EffectEntry>,
+    /// Expected cost.
+    pub predicted: Predicted,
+    /// Advice.
+    pub warnings: Vec<String>,
+}
+
+/// Density change allowed for the pressure range in the equation of state.
+const DENSITY_CHANGE: f64 = 0.01;
+
+impl Plan {
+    /// Plans a case.
+    ///
+    /// # Errors
+    /// When the case asks for what this version does not have, or its openings cannot drive a flow.
+    pub fn new(case: &Case) -> Result<Self, DriverError> {
+        supported::check(case)?;
+        let scene = &case.scene;
+        let (density, viscosity) = supported::newtonian(scene)?;
+        let ramp_default = scene.run.period.map_or(DEFAULT_RAMP, |period| DEFAULT_RAMP.max(0.1 * period));
+        let openings = planned_openings(case, ramp_default)?;
+        let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
+
+        let flow = estimate::Flow::new(&case.vessel, &openings, density, viscosity, ramp);
+        let by_speed = scene.numerics.sound_speed_factor * flow.top_speed;
+        let by_pressure = (flow.pressure_range / (DENSITY_CHANGE * density)).sqrt();
+        let (sound_speed, sound_speed_reason) = match scene.numerics.sound_speed {
+            Some(given) => (given, "given in the case".to_owned()),
+            None if by_speed >= by_pressure => (
+                by_speed,
+                format!(
+                    "{} times the expected top speed of {:.3} m/s ({})",
+                    scene.numerics.sound_speed_factor, flow.top_speed, flow.top_speed_reason
+                ),
+            ),
+            None => (
+                by_pressure,
+                format!(
+                    "keeps the density within {:.0} % over a pressure range of {:.0} Pa ({})",
+                    100.0 * DENSITY_CHANGE,
+                    flow.pressure_range,
+                    flow.pressure_reason
+                ),
+            ),
+        };
+        let spacing = scene.particles.spacing;
+        let across = 2.0 * flow.smallest_radius / spacing;
+        let mut numbers = Numbers::new(density, viscosity, flow.top_speed, spacing);
+        numbers.sound_speed = sound_speed;
+        numbers.smoothing_length = scene.numerics.smoothing_length * spacing;
+        numbers.density_blend = scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
+
+        let mut warnings = case.vessel.audit.notices.clone();
+        let settings = crate::world::generation_settings(scene);
+        warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(ToString::to_string));
+        if across < 12.0 {
+            warnings.push(format!(
+                "{across:.1} particles lie across the narrowest opening; flow patterns want 12, wall shear stress 20"
+            ));
+        }
+        if flow.reynolds_peak > 2300.0 {
+            warnings.push(format!(
+                "the peak Reynolds number is {:.0}: the flow may be turbulent, and there is no turbulence model",
+                flow.reynolds_peak
+            ));
+        }
+        let precision = scene.numerics.precision;
+        let isa = Isa::detect();
+        let predicted = estimate::cost(case, &numbers, precision, scene.run.end_time);
+        let womersley =
+            scene.run.period.map(|t| flow.inlet_radius * (std::f64::consts::TAU * density / (t * viscosity)).sqrt());
+        Ok(Self {
+            numbers,
+            sound_speed_reason,
+            take_out_pressure: scene.numerics.reference_pressure.is_none(),
+            precision,
+            isa,
+            ramp,
+            end_time: scene.run.end_time,
+            reynolds_peak: flow.reynolds_peak,
+            womersley,
+            effects: supported::effects(scene, &openings),
+            predicted,
+            warnings,
+            openings,
+        })
+    }
+}
+
+/// Ramp of an inlet that asks for none \[s\].
+const DEFAULT_RAMP: f64 = 0.05;
+
+fn inlet_ramp(condition: &Condition) -> Option<f64> {
+    match condition {
+        Condition::Velocity { mean, .. } => Some(mean.ramp),
+        Condition::Pressure { .. } => None,
+    }
+}
+
+fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, DriverError> {
+    let scene = &case.scene;
+    let mut problems = Vec::new();
+    let mut planned = Vec::new();
+    for (k, opening) in case.vessel.openings.iter().enumerate() {
+        let Some(spec) = case.scene_opening[k].map(|s| &scene.openings[s]) else {
+            let c: DVec3 = opening.center / case.vessel.unit.metres();
+            problems.push(format!(
+                "{}: the surface has an opening near [{:.3}, {:.3}, {:.3}] that no `[[opening]]` speaks of; \
+                 add one with that `near`",
+                scene.file.display(), c.x, c.y, c.z
+            ));
+            continue;
+        };
+        let profile = |p: vaso_scene::Profile| match p {
+            vaso_scene::Profile::Plug => Profile::Plug,
+            // `supported::check` has refused the rest.
+            _ => Profile::Parabolic,
+        };
+        let condition = match &spec.condition {
+            vaso_scene::Condition::Velocity { profile: p, value } => {
+                signal(value, 1.0, spec.ramp.unwrap_or(ramp)).map(|mean| Condition::Velocity { profile: profile(*p), mean })
+            }
+            vaso_scene::Condition::Flow { profile: p, value } => {
+                signal(value, 1.0 / opening.area, spec.ramp.unwrap_or(ramp))
+                    .map(|mean| Condition::Velocity { profile: profile(*p), mean })
+            }
+            vaso_scene::Condition::Pressure { value } => {
+                signal(value, 1.0, spec.ramp.unwrap_or(0.0)).map(|value| Condition::Pressure { value })
+            }
+            other => Err(format!("`{}` is not in this version", other.word())),
+        };
+        match condition {
+            Ok(condition) => {
+                planned.push(PlannedOpening { name: spec.name.clone(), opening: opening.clone(), condition });
+            }
+            Err(text) => problems.push(format!("{}: `opening.{}`: {text}", scene.file.display(), spec.name)),
+        }
+    }
+    if problems.is_empty() && !planned.iter().any(|o| matches!(o.condition, Condition::Pressure { .. })) {
+        problems.push(format!(
+            "{}: all openings prescribe a velocity, so nothing sets the pressure and a mismatch of the flows would \
+             pile up; make one an outlet with `condition = \"pressure\"`",
+            scene.file.display()
+        ));
+    }
+    if problems.is_empty() { Ok(planned) } else { Err(DriverError::Input { problems }) }
+}
+
+fn signal(drive: &Drive, scale: f64, ramp: f64) -> Result<Signal, String> {
+    let source = match drive {
+        Drive::Constant(value) => Source::Constant(value * scale),
+        Drive::Waveform(table) => {
+            let value = table.value.iter().map(|v| v * scale).collect();
+            let wave = Waveform::new(table.time.clone(), value, table.period)
+                .map_err(|e| format!("{}: {e}", table.file.display()))?;
+            Source::Waveform(wave)
+        }
+    };
+    Ok(Signal { source, ramp })
+}

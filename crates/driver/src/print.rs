@@ -1,0 +1,153 @@
+//! The plan as a person reads it, before the run and with the cost after it.
+
+use crate::case::Case;
+use crate::ledger::{Ledger, Stage};
+use crate::plan::Plan;
+use std::fmt::Write;
+use vaso_boundary::{Condition, Signal, Source};
+use vaso_scene::Word;
+
+/// The geometry audit, in lines.
+pub fn audit(vessel: &vaso_geometry::Vessel, file: &std::path::Path) -> String {
+    let a = &vessel.audit;
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "surface  {} · {} triangles · {:.2} mm3 · {:.2} mm2 · {}",
+        file.display(),
+        vessel.surface.triangles.len(),
+        vessel.surface.volume() * 1e9,
+        vessel.surface.area() * 1e6,
+        if a.watertight { "watertight" } else { "not watertight" },
+    );
+    for repair in &a.repairs {
+        let _ = writeln!(out, "repair   {repair}");
+    }
+    out
+}
+
+/// The plan, in lines.
+pub fn plan(case: &Case, plan: &Plan) -> String {
+    let mut out = String::new();
+    let n = &plan.numbers;
+    let p = &plan.predicted;
+    let _ = writeln!(
+        out,
+        "plan     {} · {} · {} · {} threads · seed {}",
+        case.scene.title,
+        plan.precision.word(),
+        plan.isa.name(),
+        rayon::current_num_threads(),
+        case.scene.numerics.seed
+    );
+    let _ = writeln!(
+        out,
+        "bodies   blood   fluid {:>9}   spacing {:.3} mm   density {} kg/m3   viscosity {:.3} mPa s",
+        p.particles.fluid,
+        n.spacing * 1e3,
+        n.rest_density,
+        n.viscosity * 1e3
+    );
+    let _ = writeln!(out, "         vessel  wall  {:>9}   rigid, four layers", p.particles.wall);
+    for o in &plan.openings {
+        let _ = writeln!(
+            out,
+            "opening  {:<10} {:7.3} mm2  radius {:.3} mm  {}",
+            o.name,
+            o.opening.area * 1e6,
+            o.opening.radius * 1e3,
+            condition(&o.condition)
+        );
+    }
+    let _ = writeln!(
+        out,
+        "numbers  Reynolds {:.0}{} · density blend {}",
+        plan.reynolds_peak,
+        plan.womersley.map_or(String::new(), |w| format!(" · Womersley {w:.1}")),
+        n.density_blend
+    );
+    let _ = writeln!(out, "sound    {:.3} m/s: {}", n.sound_speed, plan.sound_speed_reason);
+    let _ = writeln!(
+        out,
+        "pressure {}",
+        if plan.take_out_pressure {
+            "the first pressure outlet is the reference: its uniform part stays out of the equation of state"
+        } else {
+            "reference pressure as given in the case"
+        }
+    );
+    let _ = writeln!(
+        out,
+        "advect   exchange · sort · rows · summation · viscosity · transport · guard   at most {:.3} ms",
+        1e3 * n.advective_step(0.0, 0.0)
+    );
+    let _ = writeln!(
+        out,
+        "acoustic wall pressure · momentum · openings · continuity   about {:.1} us",
+        1e6 * n.acoustic_step(0.5 * n.reference_speed)
+    );
+    for e in &plan.effects {
+        let _ = writeln!(out, "{:<8} {:<26} {}", if e.on { "effect" } else { "absent" }, e.name, e.reason);
+    }
+    let _ = writeln!(
+        out,
+        "cost     about {} and {:.0} MB for {} s of flow",
+        duration(p.wall_clock_s),
+        p.memory_bytes as f64 / 1e6,
+        plan.end_time
+    );
+    for w in &plan.warnings {
+        let _ = writeln!(out, "warning  {w}");
+    }
+    out
+}
+
+fn condition(c: &Condition) -> String {
+    match c {
+        Condition::Velocity { profile, mean } => {
+            format!("velocity {}, {:?} profile, ramp {} ms", signal(mean, "m/s"), profile, 1e3 * mean.ramp)
+                .replace("Plug", "plug")
+                .replace("Parabolic", "parabolic")
+        }
+        Condition::Pressure { value } => format!("pressure {}", signal(value, "Pa")),
+    }
+}
+
+fn signal(s: &Signal, unit: &str) -> String {
+    match &s.source {
+        Source::Constant(v) => format!("{v} {unit}"),
+        Source::Waveform(w) => {
+            let (low, high) = w.range();
+            format!("waveform from {low} to {high} {unit}")
+        }
+    }
+}
+
+/// A time span as people say it.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 100.0 {
+        format!("{seconds:.1} s")
+    } else if seconds < 6000.0 {
+        format!("{:.1} min", seconds / 60.0)
+    } else {
+        format!("{:.1} h", seconds / 3600.0)
+    }
+}
+
+/// The stages with what they cost.
+pub fn ledger(ledger: &Ledger, particle_substeps: u64) -> String {
+    let total = ledger.total();
+    let mut out = String::new();
+    for stage in Stage::ALL {
+        let spent = ledger.seconds(stage);
+        let _ = writeln!(
+            out,
+            "stage    {:<18} {:9.2} s  {:5.1} %  {:6.1} ns a particle and acoustic step",
+            stage.name(),
+            spent,
+            100.0 * spent / total.max(f64::MIN_POSITIVE),
+            1e9 * spent / particle_substeps.max(1) as f64
+        );
+    }
+    out
+}

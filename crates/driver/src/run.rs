@@ -1,0 +1,136 @@
+//! `vaso run`: from the case to the report.
+
+use crate::case::Case;
+use crate::error::DriverError;
+use crate::flow::{Diverged, Flow};
+use crate::plan::Plan;
+use crate::progress::Progress;
+use crate::results::{Results, append_frame};
+use crate::world::{Bodies, build_flow};
+use crate::{checkpoint, print};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+use vaso_fluid::Real;
+use vaso_io::{OutputDir, SeriesWriter, Status, Summary};
+use vaso_scene::Precision;
+
+/// How a command talks to the person.
+pub struct Talk {
+    /// Say nothing but errors.
+    pub quiet: bool,
+}
+
+impl Talk {
+    /// Says a line on standard error.
+    pub fn say(&self, text: &str) {
+        if !self.quiet {
+            eprintln!("{}", text.trim_end());
+        }
+    }
+}
+
+/// Runs a case into `out`. `stop` is looked at after every step.
+///
+/// # Errors
+/// With wrong input, nothing has been written. A run that breaks down or is stopped leaves its
+/// results so far, a summary, and a post-mortem frame or a checkpoint.
+pub fn run(
+    case: &Case,
+    plan: &Plan,
+    out: &Path,
+    force: bool,
+    stop: &AtomicBool,
+    talk: &Talk,
+) -> Result<Summary, DriverError> {
+    talk.say(&print::audit(&case.vessel, &case.scene.geometry.surface));
+    talk.say(&print::plan(case, plan));
+    let started = Instant::now();
+    let mut progress = Progress::new(talk.quiet);
+    let bodies = Bodies::make(case, |body, step, moved| progress.relaxation(body, step, moved))?;
+    progress.relaxed();
+    talk.say(&format!(
+        "made     {} fluid and {} wall particles in {:.1} s{}",
+        bodies.fluid.position.len(),
+        bodies.wall.position.len(),
+        bodies.seconds.iter().sum::<f64>(),
+        if bodies.cached { " (from the cache)" } else { "" }
+    ));
+    let out = OutputDir::prepare(out, force)?;
+    match plan.precision {
+        Precision::Mixed => run_precision::<f32>(case, plan, bodies, &out, stop, talk, progress, started),
+        Precision::Double => run_precision::<f64>(case, plan, bodies, &out, stop, talk, progress, started),
+    }
+}
+
+#[expect(clippy::too_many_arguments, reason = "the one place where all parts of a run meet")]
+fn run_precision<R: Real>(
+    case: &Case,
+    plan: &Plan,
+    bodies: Bodies,
+    out: &OutputDir,
+    stop: &AtomicBool,
+    talk: &Talk,
+    mut progress: Progress,
+    started: Instant,
+) -> Result<Summary, DriverError> {
+    let n_wall = bodies.wall.position.len();
+    let mut flow = build_flow::<R>(case, plan, bodies);
+    let mut results = Results::create(out, case, plan)?;
+    let ended = advance(&mut flow, &mut results, case, plan, stop, &mut progress);
+    progress.finish();
+    let mut summary = results.summary(&mut flow, case, plan, n_wall, started.elapsed().as_secs_f64());
+    let ended = match ended {
+        Ok(()) => results.write_frame(&flow, case).and_then(|()| {
+            talk.say(&print::ledger(&flow.ledger, flow.particle_substeps));
+            Ok(())
+        }),
+        Err(error) => Err(error),
+    };
+    if let Err(error) = &ended {
+        summary.status = match error {
+            DriverError::Interrupted { .. } => Status::Interrupted,
+            _ => Status::Failed,
+        };
+        summary.message = Some(error.to_string());
+    }
+    // After a full disk the summary may not find room either; the first error is the one to tell.
+    let written = summary.write(&out.file("summary.json")).map_err(DriverError::from);
+    ended.and(written)?;
+    //TMP vaso_report::write_report(out.path())?;
+    Ok(summary)
+}
+
+fn advance<R: Real>(
+    flow: &mut Flow<R>,
+    results: &mut Results,
+    case: &Case,
+    plan: &Plan,
+    stop: &AtomicBool,
+    progress: &mut Progress,
+) -> Result<(), DriverError> {
+    while flow.time < plan.end_time {
+        let stepped = flow.step(plan.end_time);
+        if let Err(diverged) = stepped {
+            return Err(post_mortem(flow, results, case, diverged));
+        }
+        results.after_step(flow, case, plan)?;
+        progress.flow(flow.time, plan.end_time, flow.particle_substeps);
+        if stop.load(Ordering::Relaxed) {
+            results.write_frame(flow, case)?;
+            checkpoint::write(results.folder(), flow)?;
+            return Err(DriverError::Interrupted { time: flow.time, out: results.folder().to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// Leaves the broken state beside the results; the series keeps only sound frames.
+fn post_mortem<R: Real>(flow: &Flow<R>, results: &Results, case: &Case, diverged: Diverged) -> DriverError {
+    let file: PathBuf = results.folder().join("failure.vtkhdf");
+    let mut series = SeriesWriter::create(file);
+    match append_frame(&mut series, flow, &case.scene.output.fields) {
+        // A frame may hold values the format refuses; the message is what matters then.
+        Ok(()) | Err(_) => diverged.into(),
+    }
+}

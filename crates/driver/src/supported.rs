@@ -1,0 +1,119 @@
+//! What this version can run, and every effect it knows.
+
+use crate::case::Case;
+use crate::error::DriverError;
+use crate::plan::PlannedOpening;
+use vaso_boundary::{Condition, Source};
+use vaso_io::EffectEntry;
+use vaso_scene::material::Viscosity;
+use vaso_scene::{Blood, Condition as Asked, Field, Generator, Profile, Scene, Wall, Word};
+
+/// Refuses, all at once, what a case asks for and this version does not have.
+///
+/// # Errors
+/// One problem for each such request.
+pub fn check(case: &Case) -> Result<(), DriverError> {
+    let scene = &case.scene;
+    let mut problems = Vec::new();
+    let mut refuse = |key: String, seen: &str, allowed: &str| {
+        problems.push(format!(
+            "{}: `{key}` is \"{seen}\", which this version does not have; allowed: {allowed}",
+            scene.file.display()
+        ));
+    };
+    if !matches!(scene.wall, Wall::Rigid) {
+        let seen = match scene.wall {
+            Wall::RigidShell => "rigid-shell",
+            Wall::Solid(_) => "solid",
+            _ => "shell",
+        };
+        refuse("wall.model".into(), seen, "\"rigid\"");
+    }
+    if let Generator::Multiblock(_) = scene.particles.generator {
+        refuse("particles.generator".into(), "multiblock", "\"relaxed-lattice\"");
+    }
+    for opening in &scene.openings {
+        let key = |field: &str| format!("opening.{}.{field}", opening.name);
+        match &opening.condition {
+            Asked::Velocity { profile, .. } | Asked::Flow { profile, .. } => {
+                if *profile == Profile::Womersley {
+                    refuse(key("profile"), "womersley", "\"plug\", \"parabolic\"");
+                }
+            }
+            Asked::Pressure { .. } => {}
+            other => refuse(key("condition"), other.word(), "\"velocity\", \"flow\", \"pressure\""),
+        }
+    }
+    for field in &scene.output.fields {
+        if !matches!(field, Field::Velocity | Field::Pressure | Field::Density) {
+            refuse("output.fields".into(), field.word(), "\"velocity\", \"pressure\", \"density\"");
+        }
+    }
+    if scene.run.steady.is_some() {
+        refuse("run.steady".into(), "set", "leave it out and give `run.end_time`");
+    }
+    if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
+}
+
+/// Density and viscosity of Newtonian blood.
+///
+/// # Errors
+/// When there is no blood, or it is not Newtonian.
+pub fn newtonian(scene: &Scene) -> Result<(f64, f64), DriverError> {
+    match scene.blood {
+        Some(Blood { density, viscosity: Viscosity::Newtonian { viscosity } }) => Ok((density, viscosity)),
+        Some(_) => Err(DriverError::input(format!(
+            "{}: `blood.viscosity` is a shear-thinning model, which this version does not have; give a constant such \
+             as \"3.5 mPa s\"",
+            scene.file.display()
+        ))),
+        None => Err(DriverError::input(format!(
+            "{}: there is no `[blood]`, and this version has no wall that could move without it; add `[blood]` with \
+             `density` and `viscosity`",
+            scene.file.display()
+        ))),
+    }
+}
+
+/// Every effect the program knows, with the reason it is on or off.
+pub fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectEntry> {
+    let named = |test: &dyn Fn(&Condition) -> bool| {
+        let names: Vec<&str> = openings.iter().filter(|o| test(&o.condition)).map(|o| o.name.as_str()).collect();
+        names.join(", ")
+    };
+    let inlets = named(&|c| matches!(c, Condition::Velocity { .. }));
+    let outlets = named(&|c| matches!(c, Condition::Pressure { .. }));
+    let tables = named(&|c| {
+        let (Condition::Velocity { mean: signal, .. } | Condition::Pressure { value: signal }) = c;
+        matches!(signal.source, Source::Waveform(_))
+    });
+    let on = |name: &str, reason: String| EffectEntry {
+        name: name.into(),
+        on: true,
+        called_for: true,
+        reason,
+        seconds: None,
+        bytes: None,
+    };
+    let either = |name: &str, names: &str, none: &str| {
+        let active = !names.is_empty();
+        let reason = if active { format!("at {names}") } else { none.into() };
+        EffectEntry { name: name.into(), on: active, called_for: active, reason, seconds: None, bytes: None }
+    };
+    vec![
+        on("blood.pressure", "a scene with blood: momentum and continuity of a weakly compressible fluid".into()),
+        on("blood.viscosity", "Newtonian, as given by `blood.viscosity`".into()),
+        on("blood.density_blend", "holds the density of a closed stream against drift".into()),
+        on("blood.gradient_correction", "kernel sums at a wall or in disorder are 1 to 3 % off without it".into()),
+        on("blood.transport_velocity", "keeps particles evenly spread along streamlines".into()),
+        on("wall.rigid", "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach".into()),
+        either("opening.velocity", &inlets, "no opening prescribes a velocity or flow"),
+        either("opening.pressure", &outlets, "no opening prescribes a pressure"),
+        either("opening.waveform", &tables, "all openings are steady"),
+        either(
+            "probes",
+            &scene.probes.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", "),
+            "no `[[probe]]` in the case",
+        ),
+    ]
+}
