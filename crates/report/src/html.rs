@@ -16,6 +16,20 @@ pub(crate) fn escape(text: &str) -> String {
     safe
 }
 
+/// A sentence of the program as HTML: what stands between backticks is a name.
+pub(crate) fn prose(text: &str) -> String {
+    let parts: Vec<&str> = text.split('`').collect();
+    // An odd number of backticks is no pair of quotes: leave them as they are.
+    if parts.len().is_multiple_of(2) {
+        return escape(text);
+    }
+    let mark = |(k, part): (usize, &&str)| match k % 2 {
+        0 => escape(part),
+        _ => format!("<code>{}</code>", escape(part)),
+    };
+    parts.iter().enumerate().map(mark).collect()
+}
+
 /// A column of a table.
 pub(crate) enum Column {
     /// Words, to the left.
@@ -81,6 +95,13 @@ pub(crate) fn verdict(class: &str, word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn backticks_mark_names() {
+        assert_eq!(prose("set `a<b` to 1"), "set <code>a&lt;b</code> to 1");
+        assert_eq!(prose("5` is odd & left"), "5` is odd &amp; left");
+        assert_eq!(prose(""), "");
+    }
 
     #[test]
     fn names_cannot_become_markup() {

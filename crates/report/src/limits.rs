@@ -1,12 +1,12 @@
 //! What a run does not prove, said next to its results.
 
-use crate::html::escape;
+use crate::html::prose;
 use vaso_io::{Status, Summary};
 
 /// The list of limits, those that always hold and those this run brought on itself.
 pub(crate) fn limits(summary: &Summary) -> String {
     let items: Vec<String> =
-        limits_of(summary).iter().map(|limit| format!("<li>{}</li>", escape(limit))).collect();
+        limits_of(summary).iter().map(|limit| format!("<li>{}</li>", prose(limit))).collect();
     format!("<ul class=\"limits\">{}</ul>\n", items.concat())
 }
 

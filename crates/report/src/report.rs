@@ -2,7 +2,7 @@
 
 use crate::ReportError;
 use crate::chart::{Curve, chart};
-use crate::html::{escape, section};
+use crate::html::{escape, prose, section};
 use crate::{limits, sections, vessel};
 use std::path::{Path, PathBuf};
 use vaso_io::{Summary, TableData, read_table, write_whole};
@@ -57,7 +57,7 @@ fn waveforms(path: &Path) -> String {
     }
     let data = match read_table(path) {
         Ok(data) => data,
-        Err(error) => return format!("<p class=\"note\">No waveforms: {}</p>\n", escape(&error.to_string())),
+        Err(error) => return format!("<p class=\"note\">No waveforms: {}</p>\n", prose(&error.to_string())),
     };
     chart("Flow", "ml/s, positive out of the vessel", &curves(&data, ".flow_m3_s", 1e6))
         + &chart("Pressure", "kPa", &curves(&data, ".pressure_pa", 1e-3))

@@ -1,6 +1,6 @@
 //! The parts of the page that come from `summary.json`.
 
-use crate::html::{Column, escape, table, verdict};
+use crate::html::{Column, escape, prose, table, verdict};
 use crate::scale::{bytes, count, duration, number};
 use vaso_io::{Status, Summary};
 
@@ -20,10 +20,10 @@ pub(crate) fn head(summary: &Summary) -> String {
         escape(&summary.vaso_version)
     );
     if let Some(message) = &summary.message {
-        html += &format!("<p class=\"note {class}\">{}</p>", escape(message));
+        html += &format!("<p class=\"note {class}\">{}</p>", prose(message));
     }
     for warning in &summary.warnings {
-        html += &format!("<p class=\"note\">{}</p>", escape(warning));
+        html += &format!("<p class=\"note\">{}</p>", prose(warning));
     }
     let card = |name: &str, value: String| format!("<div><dt>{name}</dt><dd>{value}</dd></div>");
     let unit = |value: f64, unit: &str| format!("{} <small>{unit}</small>", number(value, 3));
@@ -58,12 +58,12 @@ pub(crate) fn effects(summary: &Summary) -> String {
         let seconds = effect.seconds.filter(|_| effect.on);
         let share = seconds.filter(|_| total > 0.0).map(|s| {
             let percent = 100.0 * s / total;
-            format!("<span class=\"share\"><i style=\"width:{percent:.1}%\"></i></span>{percent:.0} %")
+            format!("<span class=\"share\"><i style=\"width:{percent:.1}%\"></i></span><span class=\"percent\">{percent:.0} %</span>")
         });
         rows.push(vec![
             escape(&effect.name),
             state,
-            escape(&effect.reason),
+            prose(&effect.reason),
             seconds.map_or_else(String::new, |s| number(s, 3)),
             share.unwrap_or_default(),
             effect.bytes.filter(|&b| b > 0).map_or_else(String::new, bytes),
@@ -96,27 +96,51 @@ pub(crate) fn effects(summary: &Summary) -> String {
 pub(crate) fn stability(summary: &Summary) -> String {
     let seen = &summary.stability;
     let fluid = summary.particles.fluid.max(1) as f64;
-    let share = |value: f64, name: &str, meaning: &str, good: f64, fair: f64| {
-        let percent = number(100.0 * value, 3);
-        let judged = judge(value.abs(), good, fair);
-        let limit = format!("up to {} %", number(100.0 * good, 3));
-        vec![name.to_owned(), format!("{percent} %"), limit, judged, meaning.to_owned()]
-    };
+    let measured =
+        |value: f64, text: &dyn Fn(f64) -> String, name: &str, meaning: &str, good: f64, fair: f64| {
+            let seen = if value.is_nan() { "–".to_owned() } else { text(value) };
+            let limit = format!("up to {}", text(good));
+            vec![name.to_owned(), seen, limit, judge(value.abs(), good, fair), meaning.to_owned()]
+        };
+    let percent = |value: f64| format!("{} %", number(100.0 * value, 3));
+    let plain = |value: f64| number(value, 3);
     let counted = |value: u64, name: &str, meaning: &str, fair: f64| {
         let judged = judge(value as f64, 0.0, fair);
         vec![name.to_owned(), count(value), "none".to_owned(), judged, meaning.to_owned()]
     };
     let rows = [
-        share(seen.max_density_error, "density error", "largest deviation from the rest density", 0.02, 0.05),
-        share(seen.max_mach, "Mach number", "largest speed over the artificial sound speed", 0.1, 0.2),
-        share(
+        measured(
+            seen.max_density_error,
+            &percent,
+            "density error",
+            "largest deviation from the rest density",
+            0.02,
+            0.05,
+        ),
+        measured(
+            seen.max_mach,
+            &plain,
+            "Mach number",
+            "largest speed over the artificial sound speed",
+            0.1,
+            0.2,
+        ),
+        measured(
             seen.mass_balance_error,
+            &percent,
             "mass balance",
             "inflow less outflow and storage, over the inflow",
             0.01,
             0.05,
         ),
-        share(seen.energy_growth, "energy growth", "energy that nothing supplied, over the total", 0.01, 0.1),
+        measured(
+            seen.energy_growth,
+            &percent,
+            "energy growth",
+            "energy that nothing supplied, over the total",
+            0.01,
+            0.1,
+        ),
         counted(seen.escaped_particles, "escaped particles", "fluid found outside the lumen", 1e-3 * fluid),
         counted(seen.non_finite, "non-finite values", "not a number, or infinite", 0.0),
     ];

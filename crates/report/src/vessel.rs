@@ -2,7 +2,7 @@
 
 use crate::ReportError;
 use crate::color::css_gradient;
-use crate::html::escape;
+use crate::html::{escape, prose};
 use crate::picture::{PictureOptions, Quantity, Style, VesselPicture, draw};
 use crate::scale::{number, ticks};
 use base64::Engine;
@@ -55,7 +55,7 @@ fn series(path: &Path, views: &[(&str, PictureOptions)]) -> String {
 }
 
 fn note(error: &ReportError) -> String {
-    format!("<p class=\"note\">No picture: {}</p>\n", escape(&error.to_string()))
+    format!("<p class=\"note\">No picture: {}</p>\n", prose(&error.to_string()))
 }
 
 fn figure(

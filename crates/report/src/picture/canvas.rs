@@ -30,7 +30,7 @@ impl Picture {
         let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::High);
+        encoder.set_compression(png::Compression::Balanced);
         let written = encoder.write_header().and_then(|mut writer| {
             writer.write_image_data(&self.rgba)?;
             writer.finish()
