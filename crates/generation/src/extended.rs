@@ -56,7 +56,7 @@ fn free_length(vessel: &Vessel, closed: &SignedDistance, opening: usize, length:
     let is_free = |l: f64| {
         o.polygon.iter().all(|&[u, v]| {
             let x = o.center + u * o.axes[0] + v * o.axes[1] + l * o.normal;
-            closed.query(x).distance >= 0.5 * l
+            closed.query(x).distance >= 0.95 * l
         })
     };
     let steps = (length / step).ceil() as usize;

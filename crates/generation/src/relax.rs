@@ -33,7 +33,7 @@ const AT_REST: f64 = 1e-3;
 const PATIENCE: (usize, f64) = (50, 0.01);
 /// Steps at the end that ask for the exact faces: bounding by them once and for all would push particles
 /// into others where the table rounds off an edge.
-const POLISH: usize = 10;
+const POLISH: usize = 20;
 
 /// What is relaxed: a region, and the kernel and volume of its particles.
 pub(crate) struct Relaxation<'a, R> {
