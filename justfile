@@ -4,30 +4,38 @@
 default:
     @just --list
 
-# Run a case and write its report.
-demo case="cases/pipe":
-    cargo run --release -- run {{case}}
+# Run a case and write its report into its folder `out`.
+demo case="cases/carotid":
+    cargo run --release -- run {{case}} --force
 
-# All tests with release optimisation and the debug assertions of the dev profile.
+# All tests, optimised and with the debug assertions of the dev profile.
 test:
     cargo test --workspace
 
-# What a change must pass before it lands.
+# What a change must pass before it lands, besides the tests.
 check:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
     cargo test -p vaso-tests --test tidy
 
-# Licences, advisories and sources of the dependencies; needs cargo-deny.
-deny:
-    cargo deny check
+# Flows against formulas and published numbers, with the figures printed.
+validate:
+    cargo test -p vaso-tests --test 'validation*' -- --nocapture
 
 # Micro-benchmarks.
 bench:
     cargo bench -p vaso-benches
 
-# The documentation of the crates, and the reference of case.toml made from its schema.
+# The reference of case.toml made from its schema, and the documentation of the crates.
 docs:
     cargo run -p vaso-scene --example case_reference > docs/case-reference.md
     cargo doc --workspace --no-deps
+
+# Licences, advisories and sources of the dependencies; needs cargo-deny.
+deny:
+    cargo deny check
+
+# All that is checked for every change, as it is checked there.
+ci:
+    bash .ci/run
