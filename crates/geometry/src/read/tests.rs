@@ -255,6 +255,13 @@ fn vtp_polygons_and_strips_become_triangles() {
 }
 
 #[test]
+fn a_compressor_does_not_matter_to_text() {
+    let text = String::from_utf8(variants()[0].file()).expect("text");
+    let named = text.replace("type=\"PolyData\"", "type=\"PolyData\" compressor=\"vtkLZMADataCompressor\"");
+    assert_eq!(read(named.as_bytes()).expect("nothing is compressed"), pipe());
+}
+
+#[test]
 fn vtp_pieces_join() {
     let one = String::from_utf8(variants()[0].file()).expect("text");
     let (start, end) = (one.find("<Piece").expect("a piece"), one.find("</PolyData>").expect("its end"));
@@ -269,7 +276,7 @@ fn vtp_pieces_join() {
 
 #[test]
 fn vtp_that_cannot_be_read_says_why() {
-    let lzma = "<VTKFile type=\"PolyData\" compressor=\"vtkLZMADataCompressor\"/>";
+    let lzma = "<VTKFile type=\"PolyData\" compressor=\"vtkLZMADataCompressor\"><DataArray format=\"binary\"/></VTKFile>";
     assert!(read(lzma.as_bytes()).expect_err("lzma").to_string().contains("save it again with zlib"));
     let grid = "<VTKFile type=\"UnstructuredGrid\"/>";
     assert!(read(grid.as_bytes()).expect_err("a grid").to_string().contains("UnstructuredGrid"));

@@ -52,6 +52,8 @@ fn encoding(root: Node, path: &Path) -> Result<Encoding, GeometryError> {
         None | Some("") => Compression::None,
         Some("vtkZLibDataCompressor") => Compression::Zlib,
         Some("vtkLZ4DataCompressor") => Compression::Lz4,
+        // Files of plain text name a compressor as well.
+        Some(_) if !root.descendants().any(is_packed) => Compression::None,
         Some(other) => {
             let compressor = other.to_owned();
             return Err(GeometryError::VtpCompressor { path: path.to_owned(), compressor });
@@ -62,6 +64,11 @@ fn encoding(root: Node, path: &Path) -> Result<Encoding, GeometryError> {
         header_bytes: if root.attribute("header_type") == Some("UInt64") { 8 } else { 4 },
         compression,
     })
+}
+
+/// Whether an element is an array stored other than as text.
+fn is_packed(node: Node) -> bool {
+    node.has_tag_name("DataArray") && matches!(node.attribute("format"), Some("binary" | "appended"))
 }
 
 /// The section of data behind all XML.
