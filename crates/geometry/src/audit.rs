@@ -33,34 +33,34 @@ pub struct Audit {
     pub repairs: Vec<String>,
     /// What was not changed but deserves a look, a sentence each.
     pub notices: Vec<String>,
-    /// Flat regions of the surface that look like caps, with the reason where they are none. Caps closed
-    /// from boundary loops are not listed.
+    /// Flat, roundish regions of the surface, largest first: the caps, and up to 16 others with the reason
+    /// why they are none. Caps closed from boundary loops are not listed.
     pub flat_regions: Vec<FlatRegion>,
 }
 
-/// Smallest, median and largest length of edges [m].
+/// Smallest, median and largest length of edges \[m\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EdgeLengths {
-    /// Smallest [m].
+    /// Smallest \[m\].
     pub min: f64,
-    /// Median [m].
+    /// Median \[m\].
     pub median: f64,
-    /// Largest [m].
+    /// Largest \[m\].
     pub max: f64,
 }
 
 /// A flat part of the surface that was considered as a cap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlatRegion {
-    /// Centre of area [m].
+    /// Centre of area \[m\].
     pub center: DVec3,
     /// Outward unit normal.
     pub normal: DVec3,
-    /// Area A [m^2].
+    /// Area A \[m^2\].
     pub area: f64,
     /// 4 pi A / P^2 with the perimeter P: 1 for a circle.
     pub circularity: f64,
-    /// Mean angle between the normal of the region and those of the triangles around it [rad].
+    /// Mean angle between the normal of the region and those of the triangles around it \[rad\].
     pub border_angle: f64,
     /// Why it is no cap; `None` for a cap.
     pub rejected: Option<Rejection>,

@@ -18,7 +18,7 @@ use crate::{
     winding::WindingTree,
 };
 
-/// Largest angle between the normals of the triangles of a cap and of its plane [degrees].
+/// Largest angle between the normals of the triangles of a cap and of its plane \[degrees\].
 const FLAT_DEGREES: f64 = 2.0;
 /// Largest distance of the vertices of a cap from its plane, as part of the diagonal of the surface.
 const FLAT_DISTANCE: f64 = 1e-3;
@@ -30,6 +30,9 @@ const MIN_CIRCULARITY: f64 = 0.6;
 /// Number of places tested on each side of a cap, and how many may fail.
 const SAMPLES: usize = 16;
 const MAX_FAILED_SAMPLES: usize = 2;
+
+/// Number of flat regions listed that are no caps: the largest.
+const MAX_LISTED: usize = 16;
 
 /// A cap found on the surface.
 pub(crate) struct Cap {
@@ -44,21 +47,27 @@ pub(crate) fn find(surface: &Surface, taken: &[bool]) -> (Vec<Cap>, Vec<FlatRegi
     let corners: Vec<[DVec3; 3]> = (0..n).map(|t| surface.triangle(t)).collect();
     let tree = WindingTree::new(&corners);
     let min_area = MIN_CAP_AREA * surface.area();
-    let mut finder = Finder { surface, across, diagonal: surface.diagonal(), in_region: taken.to_vec() };
+    let mut finder = Finder {
+        surface,
+        across,
+        diagonal: surface.diagonal(),
+        done: taken.to_vec(),
+        seen: vec![0; n],
+        flood: 0,
+    };
     let mut seeds: Vec<usize> = (0..n).collect();
     seeds.sort_by(|&a, &b| surface.triangle_area(b).total_cmp(&surface.triangle_area(a)));
     let (mut caps, mut regions) = (Vec::new(), Vec::new());
     for seed in seeds {
-        if finder.in_region[seed] {
+        if finder.done[seed] {
             continue;
         }
         let triangles = finder.grow(seed);
+        triangles.iter().for_each(|&t| finder.done[t] = true);
         let area: f64 = triangles.iter().map(|&t| surface.triangle_area(t)).sum();
-        // A pair of triangles is flat by chance; it is not worth a line in a report either.
-        if area < min_area || triangles.len() < 3 {
+        if area < min_area {
             continue;
         }
-        triangles.iter().for_each(|&t| finder.in_region[t] = true);
         let Some((opening, region)) = finder.judge(&triangles, &tree) else { continue };
         if region.rejected.is_none() {
             caps.push(Cap { opening, triangles });
@@ -68,6 +77,7 @@ pub(crate) fn find(surface: &Surface, taken: &[bool]) -> (Vec<Cap>, Vec<FlatRegi
         }
     }
     regions.sort_by(|a, b| b.area.total_cmp(&a.area));
+    regions.truncate(caps.len() + MAX_LISTED);
     (caps, regions)
 }
 
@@ -75,13 +85,20 @@ struct Finder<'a> {
     surface: &'a Surface,
     across: Vec<[u32; 3]>,
     diagonal: f64,
-    in_region: Vec<bool>,
+    /// Triangles that belong to an opening already, or to a region that was judged.
+    done: Vec<bool>,
+    /// For each triangle the number of the last flood that reached it.
+    seen: Vec<u32>,
+    flood: u32,
 }
 
 impl Finder<'_> {
     /// The flat region around a triangle: first by the plane of the seed, then by the mean plane of what
     /// that found, which the seed's own rounding errors do not tilt.
-    fn grow(&self, seed: usize) -> Vec<usize> {
+    ///
+    /// Seeds are taken by falling area, so a cap is found from its largest triangle. Each triangle is judged
+    /// once: one that belongs to a flat part of the wall does not belong to a cap.
+    fn grow(&mut self, seed: usize) -> Vec<usize> {
         let normal = self.surface.triangle_normal(seed);
         if normal == DVec3::ZERO {
             return vec![seed];
@@ -100,29 +117,30 @@ impl Finder<'_> {
         }
     }
 
-    fn flood(&self, seed: usize, normal: DVec3, place: DVec3) -> Vec<usize> {
-        let min_cosine = FLAT_DEGREES.to_radians().cos();
-        let lies_within = |t: usize, distance: f64| {
-            self.surface.triangle(t).iter().all(|&p| (p - place).dot(normal).abs() <= distance)
-        };
-        let belongs = |t: usize| {
-            !self.in_region[t]
-                && (lies_within(t, EXACT_DISTANCE * self.diagonal)
-                    || (self.surface.triangle_normal(t).dot(normal) >= min_cosine
-                        && lies_within(t, FLAT_DISTANCE * self.diagonal)))
-        };
+    fn flood(&mut self, seed: usize, normal: DVec3, place: DVec3) -> Vec<usize> {
+        self.flood += 1;
+        self.seen[seed] = self.flood;
         let mut region = vec![seed];
-        let mut seen = std::collections::BTreeSet::from([seed]);
         let mut front = VecDeque::from([seed]);
         while let Some(t) = front.pop_front() {
             for next in self.across[t].into_iter().filter(|&n| n != NONE).map(|n| n as usize) {
-                if belongs(next) && seen.insert(next) {
+                if self.seen[next] < self.flood && !self.done[next] && self.lies_in(next, normal, place) {
+                    self.seen[next] = self.flood;
                     region.push(next);
                     front.push_back(next);
                 }
             }
         }
         region
+    }
+
+    /// Whether a triangle lies in a plane, up to the tolerances of a cap.
+    fn lies_in(&self, t: usize, normal: DVec3, place: DVec3) -> bool {
+        let corners = self.surface.triangle(t);
+        let off = corners.iter().map(|&p| (p - place).dot(normal).abs()).fold(0.0, f64::max);
+        off <= EXACT_DISTANCE * self.diagonal
+            || (off <= FLAT_DISTANCE * self.diagonal
+                && self.surface.triangle_normal(t).dot(normal) >= FLAT_DEGREES.to_radians().cos())
     }
 
     /// Measures a region and decides whether it is a cap. `None` when it has no border at all.

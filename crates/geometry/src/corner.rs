@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Mean angle between the normals of a cap and of the wall around it [degrees].
+/// Mean angle between the normals of a cap and of the wall around it \[degrees\].
 const MEAN_DEGREES: std::ops::RangeInclusive<f64> = 45.0..=135.0;
 /// The same for each piece of the border; a few may differ, where a facet of the cap itself is tilted.
 const PIECE_DEGREES: std::ops::RangeInclusive<f64> = 30.0..=150.0;
@@ -11,7 +11,7 @@ const MIN_PIECES: f64 = 0.85;
 /// Angles along the border of a flat region.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
-    /// Mean over the length of the border [rad].
+    /// Mean over the length of the border \[rad\].
     pub(crate) mean: f64,
     /// Part of the length where the angle is that of a corner, not of a smooth surface.
     sharp: f64,

@@ -13,7 +13,7 @@ use crate::{pseudo_normal::PseudoNormals, surface::Surface, vessel::Vessel, wind
 /// The nearest point of the surface to a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// Signed distance phi [m], negative inside.
+    /// Signed distance phi \[m\], negative inside.
     pub distance: f64,
     /// Nearest point on the surface.
     pub point: DVec3,
@@ -35,7 +35,7 @@ pub struct SignedDistance {
     /// Decides the side where normals cannot: surfaces that are not closed or not orientable.
     winding: Option<WindingTree>,
     is_continuous: bool,
-    /// Distance below which the direction to the nearest point is rounding error [m].
+    /// Distance below which the direction to the nearest point is rounding error \[m\].
     on_surface: f64,
 }
 

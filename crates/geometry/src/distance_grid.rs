@@ -37,18 +37,24 @@ enum Slot {
 }
 
 impl DistanceGrid {
-    /// Samples `distance` on a lattice of the given spacing [m] over `bounds` [m], exactly within `band` [m] of
+    /// Samples `distance` on a lattice of the given spacing \[m\] over `bounds` \[m\], exactly within `band` \[m\] of
     /// the surface; farther away only the side is kept.
     ///
+    /// Of a wall without its caps ([`SignedDistance::wall`]) the side changes at a distance in front of each
+    /// opening; values interpolated across that place mean nothing, so keep the bounds to the vessel there.
+    ///
     /// # Panics
-    /// When `spacing` or `band` is not positive and finite, or `bounds` are not finite.
+    /// When `spacing` or `band` is not positive and finite, `bounds` are not finite, or the spacing is so small
+    /// that the bounds hold more than 2^32 blocks.
     pub fn build(distance: &SignedDistance, bounds: (DVec3, DVec3), spacing: f64, band: f64) -> DistanceGrid {
         assert!(spacing > 0.0 && spacing.is_finite(), "spacing must be positive, not {spacing}");
         assert!(band > 0.0 && band.is_finite(), "band must be positive, not {band}");
         assert!(bounds.0.is_finite() && bounds.1.is_finite(), "bounds must be finite, not {bounds:?}");
         let block_size = CELLS as f64 * spacing;
-        let blocks = ((bounds.1 - bounds.0) / block_size).ceil().max(DVec3::ONE).as_uvec3();
-        let n_blocks = blocks.x as usize * blocks.y as usize * blocks.z as usize;
+        let blocks = ((bounds.1 - bounds.0) / block_size).ceil().max(DVec3::ONE);
+        let n_blocks = blocks.element_product();
+        assert!(n_blocks <= f64::from(u32::MAX), "a spacing of {spacing} is too small for {bounds:?}");
+        let (blocks, n_blocks) = (blocks.as_uvec3(), n_blocks as usize);
         let mut grid = DistanceGrid {
             origin: bounds.0,
             spacing,
@@ -102,7 +108,7 @@ impl DistanceGrid {
         unsnake(block);
     }
 
-    /// Signed distance phi [m] and its unit gradient at `x`, by trilinear interpolation.
+    /// Signed distance phi \[m\] and its unit gradient at `x`, by trilinear interpolation.
     ///
     /// Beyond the band phi is `+band` or `-band` and the gradient zero. Outside the bounds the values are
     /// those of the nearest point of the bounds.
@@ -143,17 +149,17 @@ impl DistanceGrid {
         (phi, gradient.normalize_or_zero())
     }
 
-    /// Distance between neighbouring nodes [m].
+    /// Distance between neighbouring nodes \[m\].
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Distance from the surface up to which values are kept [m].
+    /// Distance from the surface up to which values are kept \[m\].
     pub fn band(&self) -> f64 {
         self.band
     }
 
-    /// Memory the values take [bytes].
+    /// Memory the values take \[bytes\].
     pub fn bytes(&self) -> usize {
         size_of_val(&self.values[..]) + size_of_val(&self.table[..])
     }
@@ -165,7 +171,7 @@ impl DistanceGrid {
     }
 }
 
-/// Place of a node in its block [spacings] when rows are walked to and fro, each step to a neighbour.
+/// Place of a node in its block \[spacings\] when rows are walked to and fro, each step to a neighbour.
 fn snake(node: usize) -> DVec3 {
     let (x, y, z) = (node % NODES, node / NODES % NODES, node / NODES / NODES);
     let row = node / NODES;

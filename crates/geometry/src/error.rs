@@ -145,9 +145,9 @@ pub enum GeometryError {
         "the surface encloses no volume: {volume_m3:e} m^3 within a box of diagonal {diagonal_m:e} m (unit \"{unit}\"); is it a flat sheet, or one half of a vessel?"
     )]
     NoVolume {
-        /// Volume after repair [m^3].
+        /// Volume after repair \[m^3\].
         volume_m3: f64,
-        /// Diagonal of the bounding box [m].
+        /// Diagonal of the bounding box \[m\].
         diagonal_m: f64,
         /// Unit of the coordinates.
         unit: LengthUnit,

@@ -7,15 +7,15 @@ use crate::polygon;
 /// A plane cap of the lumen, with the frame in which inflow and outflow are described.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {
-    /// Centre of area [m].
+    /// Centre of area \[m\].
     pub center: DVec3,
     /// Unit normal, out of the domain.
     pub normal: DVec3,
-    /// Area A [m^2].
+    /// Area A \[m^2\].
     pub area: f64,
-    /// Radius of the circle of equal area, sqrt(A/pi) [m].
+    /// Radius of the circle of equal area, sqrt(A/pi) \[m\].
     pub radius: f64,
-    /// Border in the plane of the cap [m], about the centre along [`axes`](Self::axes), counter-clockwise
+    /// Border in the plane of the cap \[m\], about the centre along [`axes`](Self::axes), counter-clockwise
     /// seen against the normal.
     pub polygon: Vec<[f64; 2]>,
     /// Unit axes in the plane: the longer principal axis of the area, and `normal` x that.
@@ -54,23 +54,23 @@ impl Opening {
         })
     }
 
-    /// Distance from the cap plane into the vessel, s = -(x - center).normal [m]; negative outside.
+    /// Distance from the cap plane into the vessel, s = -(x - center).normal \[m\]; negative outside.
     pub fn depth(&self, x: DVec3) -> f64 {
         -(x - self.center).dot(self.normal)
     }
 
-    /// In-plane coordinates of `x` about the centre along the two axes [m].
+    /// In-plane coordinates of `x` about the centre along the two axes \[m\].
     pub fn project(&self, x: DVec3) -> [f64; 2] {
         let from_center = x - self.center;
         [from_center.dot(self.axes[0]), from_center.dot(self.axes[1])]
     }
 
-    /// In-plane distance from `x` to the border of the cap [m]; negative over the cap.
+    /// In-plane distance from `x` to the border of the cap \[m\]; negative over the cap.
     pub fn lateral(&self, x: DVec3) -> f64 {
         polygon::signed_distance(&self.polygon, self.project(x))
     }
 
-    /// Distance from `x` to the cap itself [m], never negative.
+    /// Distance from `x` to the cap itself \[m\], never negative.
     pub fn distance(&self, x: DVec3) -> f64 {
         self.depth(x).hypot(self.lateral(x).max(0.0))
     }

@@ -49,7 +49,7 @@ pub(crate) fn centroid(polygon: &[Point]) -> Point {
     [origin[0] + moment[0] / (3.0 * twice_area), origin[1] + moment[1] / (3.0 * twice_area)]
 }
 
-/// Angle from the first axis to the direction in which the area about the origin spreads furthest [rad].
+/// Angle from the first axis to the direction in which the area about the origin spreads furthest \[rad\].
 pub(crate) fn principal_angle(polygon: &[Point]) -> f64 {
     let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
     for (a, b) in sides(polygon) {

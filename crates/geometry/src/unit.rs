@@ -24,7 +24,7 @@ impl LengthUnit {
         (LengthUnit::Micrometre, "um"),
     ];
 
-    /// Length of one such unit [m].
+    /// Length of one such unit \[m\].
     pub fn metres(self) -> f64 {
         match self {
             LengthUnit::Metre => 1.0,

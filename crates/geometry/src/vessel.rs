@@ -24,7 +24,7 @@ const MAX_COORDINATE: f64 = 1e30;
 /// A vessel ready to be filled: closed, outward, in metres, with its openings known.
 #[derive(Debug, Clone)]
 pub struct Vessel {
-    /// The closed surface of the lumen [m], normals outwards.
+    /// The closed surface of the lumen \[m\], normals outwards.
     pub surface: Surface,
     /// For each triangle the opening it belongs to, `None` for the wall.
     pub face_opening: Vec<Option<u32>>,
@@ -37,13 +37,13 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// Number of the opening whose cap is nearest to a point [m]; `None` when there are no openings.
+    /// Number of the opening whose cap is nearest to a point \[m\]; `None` when there are no openings.
     pub fn opening_near(&self, point: DVec3) -> Option<usize> {
         let distance = |k: &usize| self.openings[*k].distance(point);
         (0..self.openings.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
-    /// Area of the wall, caps left out [m^2].
+    /// Area of the wall, caps left out \[m^2\].
     pub fn wall_area(&self) -> f64 {
         let wall = (0..self.face_opening.len()).filter(|&t| self.face_opening[t].is_none());
         wall.map(|t| self.surface.triangle_area(t)).sum()
@@ -160,9 +160,9 @@ impl Vessel {
         if sealed == 0 || sealed == count {
             return;
         }
-        let keep = |t: usize| has_opening[part[t] as usize];
-        self.face_opening = (0..n).filter(|&t| keep(t)).map(|t| self.face_opening[t]).collect();
-        let triangles = repair::keep_triangles(&mut self.surface, keep);
+        let keep: Vec<bool> = part.iter().map(|&p| has_opening[p as usize]).collect();
+        self.face_opening = (0..n).filter(|&t| keep[t]).map(|t| self.face_opening[t]).collect();
+        let triangles = repair::keep_triangles(&mut self.surface, &keep);
         self.audit.components = count - sealed;
         self.audit
             .repairs

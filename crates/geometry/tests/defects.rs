@@ -147,6 +147,21 @@ fn without_openings_the_candidates_are_listed() {
 }
 
 #[test]
+fn a_square_duct_of_few_triangles_has_two_openings() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let vertices =
+        [0.0, 5.0].iter().flat_map(|&z| corners.map(|[x, y]| 1e-3 * DVec3::new(x, y, z))).collect();
+    let mut triangles = vec![[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]];
+    triangles.extend((0..4).flat_map(|i| {
+        let j = (i + 1) % 4;
+        [[i, j, j + 4], [i, j + 4, i + 4]]
+    }));
+    let found = vessel(Surface { vertices, triangles });
+    assert_eq!(found.openings.len(), 2, "{:#?}", found.audit);
+    assert!(found.openings.iter().all(|o| (o.area / 1e-6 - 1.0).abs() < 1e-12 && o.normal.z.abs() > 0.999));
+}
+
+#[test]
 fn a_membrane_across_the_lumen_leaves_inside_inside() {
     // A ring of the wall closed by a disc: its border edges have three triangles.
     let mut surface = pipe();
@@ -216,4 +231,57 @@ fn a_stl_written_and_read_is_the_same_vessel() {
         Err(GeometryError::Write { path, .. }) if path == nowhere
     ));
     assert!(matches!(vaso_geometry::read_surface(&nowhere), Err(GeometryError::Read { .. })));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
+
+    /// Heaps of triangles on few vertices have every defect at once.
+    #[test]
+    fn heaps_of_triangles_are_refused_or_become_vessels(
+        places in prop::collection::vec([-2i8..3, -2i8..3, -2i8..3], 4..20),
+        picks in prop::collection::vec([any::<u8>(), any::<u8>(), any::<u8>()], 1..60),
+    ) {
+        let vertices: Vec<DVec3> = places.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+        let triangles = picks.iter().map(|p| p.map(|v| u32::from(v) % vertices.len() as u32)).collect();
+        if let Ok(found) = prepare(Surface { vertices, triangles }, Some(LengthUnit::Metre)) {
+            prop_assert!(found.surface.volume() > 0.0);
+            prop_assert_eq!(found.face_opening.len(), found.surface.triangles.len());
+            prop_assert_eq!(found.audit.triangles, found.surface.triangles.len());
+            let known = found.openings.len() as u32;
+            prop_assert!(found.face_opening.iter().flatten().all(|&k| k < known));
+            for distance in [SignedDistance::closed(&found), SignedDistance::wall(&found)] {
+                let nearest = distance.query(DVec3::new(0.3, 0.2, 0.1));
+                prop_assert!(nearest.distance.abs() < 10.0 || nearest.distance == f64::INFINITY);
+                prop_assert!(nearest.normal.is_finite());
+            }
+        }
+    }
+
+    /// A pipe from which any triangles are gone and turned round still has no wrong side.
+    #[test]
+    fn a_pipe_with_holes_keeps_its_inside(
+        gone in prop::collection::vec(any::<prop::sample::Index>(), 0..12),
+        turned in prop::collection::vec(any::<prop::sample::Index>(), 0..200),
+    ) {
+        let mut damaged = pipe();
+        for place in turned {
+            let t = place.index(damaged.triangles.len());
+            damaged.triangles[t].swap(1, 2);
+        }
+        for place in gone {
+            let t = place.index(damaged.triangles.len());
+            damaged.triangles.remove(t);
+        }
+        let found = vessel(damaged);
+        let relative = found.surface.volume() / pipe().volume();
+        prop_assert!((relative - 1.0).abs() < 1e-2, "volume is {} of the whole, {:#?}", relative, found.audit);
+        prop_assert_eq!(found.openings.len(), 2);
+        let distance = SignedDistance::closed(&found);
+        for i in 0..20 {
+            let z = LENGTH * (f64::from(i) + 0.5) / 20.0;
+            prop_assert!(distance.query(DVec3::new(0.5e-3, 0.0, z)).distance < 0.0);
+            prop_assert!(distance.query(DVec3::new(0.0, 4e-3, z)).distance > 0.0);
+        }
+    }
 }

@@ -1,10 +1,11 @@
 //! Triangles without area and triangles given more than once.
 
-use std::{collections::BTreeMap, ops::AddAssign};
+use std::ops::AddAssign;
 
 use super::{
     edges::{Edges, NONE},
     flip::flip,
+    keep_triangles,
 };
 use crate::surface::Surface;
 
@@ -33,49 +34,44 @@ impl AddAssign for Cleaned {
     }
 }
 
-/// Drops degenerate and duplicate triangles.
+/// Drops triangles with two equal corners and duplicate ones.
 pub(crate) fn clean(surface: &mut Surface) -> Cleaned {
     let before = surface.triangles.len();
     surface.triangles.retain(|&[a, b, c]| a != b && b != c && c != a);
     let distinct = surface.triangles.len();
-    drop_duplicates(&mut surface.triangles);
-    let single = surface.triangles.len();
-    drop_loose_slivers(surface);
-    let left = surface.triangles.len();
+    drop_duplicates(surface);
     surface.drop_unused_vertices();
-    Cleaned { degenerate: before - distinct + single - left, duplicate: distinct - single }
+    Cleaned { degenerate: before - distinct, duplicate: distinct - surface.triangles.len() }
 }
 
 /// Of triangles with the same three corners keeps one, or none where the surface closes without.
 ///
 /// A triangle stored twice leaves three sides at each of its edges, and one copy has to stay. Two
 /// triangles folded onto each other (by welding a thin one) leave four, and both have to go.
-fn drop_duplicates(triangles: &mut Vec<[u32; 3]>) {
-    let sorted = |mut t: [u32; 3]| {
-        t.sort_unstable();
-        t
-    };
-    let mut copies: BTreeMap<[u32; 3], Vec<usize>> = BTreeMap::new();
-    for (t, &corners) in triangles.iter().enumerate() {
-        copies.entry(sorted(corners)).or_default().push(t);
+fn drop_duplicates(surface: &mut Surface) {
+    let triangles = &surface.triangles;
+    let mut by_corners: Vec<([u32; 3], usize)> = triangles.iter().copied().zip(0..).collect();
+    by_corners.iter_mut().for_each(|(corners, _)| corners.sort_unstable());
+    by_corners.sort_unstable();
+    let same_corners = || by_corners.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1);
+    if same_corners().next().is_none() {
+        return;
     }
-    let mut sides_at: BTreeMap<[u32; 2], usize> = BTreeMap::new();
     let edges_of = |[a, b, c]: [u32; 3]| [[a, b], [b, c], [a, c]];
-    for (&corners, same) in &copies {
-        for edge in edges_of(corners) {
-            *sides_at.entry(edge).or_default() += same.len();
-        }
-    }
+    let mut edges: Vec<[u32; 2]> = by_corners.iter().flat_map(|&(corners, _)| edges_of(corners)).collect();
+    edges.sort_unstable();
+    let sides_at =
+        |edge: [u32; 2]| edges.partition_point(|&e| e <= edge) - edges.partition_point(|&e| e < edge);
     let mut keep = vec![true; triangles.len()];
-    for (&corners, same) in copies.iter().filter(|(_, same)| same.len() > 1) {
-        let wanted = edges_of(corners).iter().filter(|&e| (sides_at[e] - same.len()) % 2 == 1).count() >= 2
-            || same.iter().skip(1).all(|&t| same_sense(triangles[same[0]], triangles[t]));
-        for &t in &same[usize::from(wanted)..] {
+    for same in same_corners() {
+        let open = |&edge: &[u32; 2]| (sides_at(edge) - same.len()) % 2 == 1;
+        let wanted = edges_of(same[0].0).iter().filter(|e| open(e)).count() >= 2
+            || same.iter().all(|&(_, t)| same_sense(triangles[same[0].1], triangles[t]));
+        for &(_, t) in &same[usize::from(wanted)..] {
             keep[t] = false;
         }
     }
-    let mut keep = keep.into_iter();
-    triangles.retain(|_| keep.next().unwrap_or(true));
+    keep_triangles(surface, &keep);
 }
 
 /// Whether two triangles with the same corners run around them the same way.
@@ -88,11 +84,11 @@ fn has_no_area(surface: &Surface, t: usize, diagonal_squared: f64) -> bool {
     surface.triangle_area(t) < NO_AREA * diagonal_squared
 }
 
-/// Drops triangles with their corners in a line that lie loosely on the surface.
+/// Drops triangles with their corners in a line that lie loosely on the surface; returns how many.
 ///
 /// One whose three edges all have exactly two sides is a stitch of a closed sheet: without it the sheet
 /// would have a slit. Those stay, and [`flip_slivers`] gives them a shape.
-fn drop_loose_slivers(surface: &mut Surface) {
+pub(crate) fn drop_loose_slivers(surface: &mut Surface) -> usize {
     let min_height = NO_HEIGHT * surface.diagonal();
     let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
     let is_line = |t: usize| {
@@ -102,8 +98,7 @@ fn drop_loose_slivers(surface: &mut Surface) {
     };
     let keep: Vec<bool> =
         (0..surface.triangles.len()).map(|t| !across[t].contains(&NONE) || !is_line(t)).collect();
-    let mut keep = keep.into_iter();
-    surface.triangles.retain(|_| keep.next().unwrap_or(true));
+    keep_triangles(surface, &keep)
 }
 
 /// Gives triangles without area a shape by exchanging their longest side for the other diagonal of the
@@ -186,7 +181,8 @@ mod tests {
         let mut s = octahedron();
         s.vertices.push(0.5 * (DVec3::X + DVec3::Y));
         s.triangles.extend([[0, 6, 1], [3, 3, 1]]);
-        assert_eq!(clean(&mut s), Cleaned { degenerate: 2, duplicate: 0 });
+        assert_eq!(clean(&mut s), Cleaned { degenerate: 1, duplicate: 0 });
+        assert_eq!(drop_loose_slivers(&mut s), 1);
         assert_eq!(s, octahedron());
     }
 
@@ -200,6 +196,7 @@ mod tests {
         assert!(Edges::new(&s.triangles).is_closed_and_oriented());
         let volume = s.volume();
         assert_eq!(clean(&mut s), Cleaned::default());
+        assert_eq!(drop_loose_slivers(&mut s), 0);
         assert_eq!(flip_slivers(&mut s), 1);
         assert!(Edges::new(&s.triangles).is_closed_and_oriented());
         assert!((s.volume() - volume).abs() < 1e-15);

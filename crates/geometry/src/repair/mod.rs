@@ -34,6 +34,8 @@ pub(crate) fn repair(surface: &mut Surface) -> Repaired {
         repairs.push(format!("joined {n} border vertices to others within {within:.3e} m"));
         cleaned += clean::clean(surface);
     }
+    // Not before the border is welded: in a heap of loose triangles all of them lie loosely.
+    cleaned.degenerate += clean::drop_loose_slivers(surface);
     if cleaned.degenerate > 0 {
         repairs.push(format!("dropped {} triangles without area", cleaned.degenerate));
     }
@@ -64,24 +66,24 @@ fn drop_debris(surface: &mut Surface) -> Option<String> {
         area[part[t] as usize] += surface.triangle_area(t);
     }
     let limit = DEBRIS_AREA * area.iter().copied().fold(0.0, f64::max);
-    let dropped: Vec<bool> = area.iter().map(|&a| a < limit).collect();
-    let n_dropped = dropped.iter().filter(|&&d| d).count();
+    let n_dropped = area.iter().filter(|&&a| a < limit).count();
     if n_dropped == 0 {
         return None;
     }
-    let triangles = keep_triangles(surface, |t| !dropped[part[t] as usize]);
+    let keep: Vec<bool> = part.iter().map(|&p| area[p as usize] >= limit).collect();
+    let triangles = keep_triangles(surface, &keep);
     Some(format!(
         "dropped {n_dropped} floating component(s) of less than 1 % of the area ({triangles} triangles)"
     ))
 }
 
-/// Keeps the triangles `keep` says yes to; returns how many went.
-pub(crate) fn keep_triangles(surface: &mut Surface, keep: impl Fn(usize) -> bool) -> usize {
+/// Keeps the triangles marked in `keep` and the vertices they use; returns how many triangles went.
+pub(crate) fn keep_triangles(surface: &mut Surface, keep: &[bool]) -> usize {
     let before = surface.triangles.len();
     let mut t = 0;
     surface.triangles.retain(|_| {
         t += 1;
-        keep(t - 1)
+        keep[t - 1]
     });
     surface.drop_unused_vertices();
     before - surface.triangles.len()

@@ -78,20 +78,21 @@ fn exact_representatives(vertices: &[DVec3]) -> Vec<u32> {
 fn close_representatives(vertices: &[DVec3], marked: &[bool], tolerance: f64) -> Vec<u32> {
     let mut of: Vec<u32> = (0..vertices.len() as u32).collect();
     let low = vertices.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let cell = |v: DVec3| ((v - low) / tolerance).floor().to_array().map(|c| c as i64);
+    // In cells of twice the tolerance all that is within the tolerance lies in at most eight of them.
+    let cell = |v: DVec3| ((v - low) / (2.0 * tolerance)).floor().to_array().map(|c| c as i64);
     let mut kept: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
     for v in (0..vertices.len()).filter(|&v| marked[v]) {
-        let [x, y, z] = cell(vertices[v]);
-        // Rounding alone would miss pairs on both sides of a cell face: look into all 27 cells.
-        let found = (-1..=1)
-            .flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])))
+        let place = vertices[v];
+        let [from, to] = [cell(place - tolerance), cell(place + tolerance)];
+        let found = (from[0]..=to[0])
+            .flat_map(|x| (from[1]..=to[1]).flat_map(move |y| (from[2]..=to[2]).map(move |z| [x, y, z])))
             .filter_map(|near| kept.get(&near))
             .flatten()
-            .filter(|&&k| vertices[k as usize].distance(vertices[v]) <= tolerance)
+            .filter(|&&k| vertices[k as usize].distance(place) <= tolerance)
             .min();
         match found {
             Some(&representative) => of[v] = representative,
-            None => kept.entry([x, y, z]).or_default().push(v as u32),
+            None => kept.entry(cell(place)).or_default().push(v as u32),
         }
     }
     of

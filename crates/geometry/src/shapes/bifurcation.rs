@@ -1,28 +1,24 @@
 //! A carotid bifurcation from a handful of diameters and angles.
+//!
+//! The wall is that of an implicit union of three tubes ([`Junction`]). Its triangles start from a template: the
+//! tubes meet at three seams, half rings between two common poles, and from the ring of two seams each branch
+//! runs in rows to its flat end. Exchanging diagonals and moving vertices along the wall evens them out.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use super::rings::{add_vertices, fill_disc, stitch_alternating};
-use crate::{
-    repair::{
-        edges::{Edges, NONE},
-        flip::flip,
-    },
-    surface::Surface,
+use super::{
+    even::even_out,
+    junction::{Branch, Junction},
+    rings::{add_vertices, fill_disc, stitch_alternating},
 };
+use crate::surface::Surface;
 
 /// Fewest points around a branch; a multiple of 4, so that half rings have a middle.
 const MIN_SEGMENTS: usize = 16;
 /// Distance from the crossing at which the external artery has its own radius, in radii of the common one.
 const FUNNEL: f64 = 3.0;
-/// Rounds that even out the triangles around the junction, and the passes of each.
-const ROUNDS: usize = 6;
-const FLIP_PASSES: usize = 4;
-const SMOOTHING_PASSES: usize = 6;
-
 /// Dimensions of a carotid bifurcation: the common carotid artery splits in a plane into the internal one, with
 /// a sinus (bulb) at its root, and the external one. Lengths in any one unit.
 ///
@@ -44,9 +40,9 @@ pub struct BifurcationSpec {
     pub internal_radius: f64,
     /// Radius of the external artery, beyond a funnel of three radii of the common one.
     pub external_radius: f64,
-    /// Angle between the axes of the common and the internal artery [rad].
+    /// Angle between the axes of the common and the internal artery \[rad\].
     pub internal_angle: f64,
-    /// Angle between the axes of the common and the external artery [rad].
+    /// Angle between the axes of the common and the external artery \[rad\].
     pub external_angle: f64,
     /// Distance from the crossing of the axes to the widest place of the sinus.
     pub sinus_distance: f64,
@@ -85,98 +81,6 @@ impl Default for BifurcationSpec {
     }
 }
 
-/// A branch: a tube about a straight axis from the crossing outwards.
-struct Branch {
-    /// Unit vector along the axis.
-    along: DVec3,
-    length: f64,
-    /// Radius at distances along the axis, ascending.
-    radii: Vec<(f64, f64)>,
-}
-
-impl Branch {
-    /// Radius at distance `s` along the axis: smooth between the given places, constant outside.
-    fn radius(&self, s: f64) -> f64 {
-        let after = self.radii.partition_point(|&(place, _)| place <= s);
-        if after == 0 {
-            return self.radii[0].1;
-        }
-        let (from, start) = self.radii[after - 1];
-        let Some(&(to, end)) = self.radii.get(after) else { return start };
-        let part = (s - from) / (to - from);
-        start + (end - start) * part * part * (3.0 - 2.0 * part)
-    }
-
-    /// About the distance to the wall of the endless tube, negative inside and round behind the crossing, and
-    /// the direction away from the axis.
-    fn distance(&self, x: DVec3) -> (f64, DVec3) {
-        let s = x.dot(self.along);
-        let from_axis = x - s.max(0.0) * self.along;
-        (from_axis.length() - self.radius(s), from_axis.normalize_or_zero())
-    }
-
-    /// Two axes across the tube, the first for all branches the same; the first cross the second is `along`.
-    fn across(&self) -> [DVec3; 2] {
-        [DVec3::Y, self.along.cross(DVec3::Y)]
-    }
-}
-
-/// The three branches and their union.
-struct Junction {
-    branches: [Branch; 3],
-    blend: f64,
-}
-
-impl Junction {
-    /// Implicit surface of the union: zero on it, negative inside.
-    fn field(&self, x: DVec3) -> f64 {
-        let [a, b, c] = [0, 1, 2].map(|k| self.branches[k].distance(x));
-        self.union(a, b).min(self.union(b, c)).min(self.union(c, a))
-    }
-
-    /// Minimum of two distances (with their gradients), rounded off where they are closer than the blend.
-    ///
-    /// The blend shrinks with the angle between the walls: side by side, where two tubes run into each other,
-    /// rounding would only swell the surface.
-    fn union(&self, (a, outward_a): (f64, DVec3), (b, outward_b): (f64, DVec3)) -> f64 {
-        let blend = 0.5 * (1.0 - outward_a.dot(outward_b)) * self.blend;
-        let overlap = if blend > 0.0 { (1.0 - (a - b).abs() / blend).max(0.0) } else { 0.0 };
-        a.min(b) - 0.25 * blend * overlap * overlap
-    }
-
-    /// The wall point on the ray from a point inside.
-    fn hit(&self, origin: DVec3, direction: DVec3) -> DVec3 {
-        // The field has slope about one, so going by its value never jumps across a wall.
-        let (mut low, mut high) = (0.0, 0.0);
-        let reach = self.branches.iter().map(|b| b.length).fold(0.0, f64::max);
-        while high < reach {
-            let value = self.field(origin + high * direction);
-            if value >= 0.0 {
-                break;
-            }
-            low = high;
-            high += (-0.5 * value).max(1e-3 * self.blend);
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.field(origin + middle * direction) < 0.0 { low = middle } else { high = middle }
-        }
-        origin + 0.5 * (low + high) * direction
-    }
-
-    /// The wall point nearest to a point close to the wall, by a few Newton steps along the gradient.
-    fn project(&self, mut x: DVec3) -> DVec3 {
-        let step = 1e-5 * self.blend;
-        for _ in 0..4 {
-            let slope =
-                DVec3::AXES.map(|e| (self.field(x + step * e) - self.field(x - step * e)) / (2.0 * step));
-            let gradient = DVec3::from(slope);
-            x -= self.field(x) / gradient.length_squared().max(0.25) * gradient;
-        }
-        x
-    }
-}
-
 /// The surface of a carotid bifurcation, closed by flat round caps at right angles to each branch.
 ///
 /// The axes cross at the origin; the common artery lies along -z, the internal one leans towards +x and the
@@ -203,11 +107,7 @@ pub fn bifurcation(spec: &BifurcationSpec) -> Surface {
         fixed.extend(&last);
         caps.push((last, junction.branches[k].length * junction.branches[k].along));
     }
-    for _ in 0..ROUNDS {
-        flip_to_delaunay(&mut surface);
-        smooth(&junction, &fixed, &mut surface);
-    }
-    flip_to_delaunay(&mut surface);
+    even_out(&junction, &fixed, &mut surface);
     for (border, center) in caps {
         fill_disc(&mut surface, &border, center);
     }
@@ -329,60 +229,6 @@ fn wall(branch: &Branch, junction: &Junction, first: &[u32], surface: &mut Surfa
         ring = next;
     }
     ring
-}
-
-/// Exchanges sides until, with few exceptions, the angles opposite of each add up to less than half a turn:
-/// among all triangles between the same points those have the largest smallest angles.
-fn flip_to_delaunay(surface: &mut Surface) {
-    for _ in 0..FLIP_PASSES {
-        let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
-        let mut touched = vec![false; surface.triangles.len()];
-        for t in 0..surface.triangles.len() {
-            for k in 0..3 {
-                let other = across[t][k];
-                if other == NONE || touched[t] || touched[other as usize] {
-                    continue;
-                }
-                let [a, b, apex] = [0, 1, 2].map(|i| surface.triangles[t][(k + i) % 3]);
-                let far = surface.triangles[other as usize].into_iter().find(|&v| v != a && v != b);
-                let angle = |v: u32| {
-                    let [v, a, b] = [v, a, b].map(|v| surface.vertices[v as usize]);
-                    (a - v).angle_between(b - v)
-                };
-                // A little more than half a turn, so that rounding does not exchange to and fro.
-                if far.is_some_and(|far| angle(apex) + angle(far) > 0.5 * TAU + 1e-6) {
-                    flip(&mut surface.triangles, t, k, &across, &mut touched);
-                }
-            }
-        }
-    }
-}
-
-/// Moves the vertices towards the middle of their neighbours, staying on the wall; those in `fixed` stay put.
-fn smooth(junction: &Junction, fixed: &[u32], surface: &mut Surface) {
-    let n = surface.vertices.len();
-    let mut is_fixed = vec![false; n];
-    fixed.iter().for_each(|&v| is_fixed[v as usize] = true);
-    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); n];
-    for &[a, b, c] in &surface.triangles {
-        // Each triangle adds the next corner; the one before comes from the triangle across that edge.
-        for (from, to) in [(a, b), (b, c), (c, a)] {
-            neighbours[from as usize].push(to);
-        }
-    }
-    for _ in 0..SMOOTHING_PASSES {
-        surface.vertices = (0..n)
-            .into_par_iter()
-            .map(|v| {
-                let here = surface.vertices[v];
-                if is_fixed[v] {
-                    return here;
-                }
-                let around: DVec3 = neighbours[v].iter().map(|&w| surface.vertices[w as usize]).sum();
-                junction.project(here.lerp(around / neighbours[v].len() as f64, 0.5))
-            })
-            .collect();
-    }
 }
 
 #[cfg(test)]

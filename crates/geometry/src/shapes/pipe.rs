@@ -28,7 +28,7 @@ pub fn pipe(radius: f64, length: f64, axis: DVec3, segments: usize) -> Surface {
 
 /// A pipe bent to an arc in the x-z plane, closed by flat caps.
 ///
-/// It starts at the origin along +z and turns towards +x by `angle` [rad] on a circle of `bend_radius`, which
+/// It starts at the origin along +z and turns towards +x by `angle` \[rad\] on a circle of `bend_radius`, which
 /// must exceed `radius`. Lengths come out in the unit they are given in. By Pappus the volume is that of a
 /// straight pipe of length `bend_radius * angle`.
 pub fn bent_pipe(radius: f64, bend_radius: f64, angle: f64, segments: usize) -> Surface {
