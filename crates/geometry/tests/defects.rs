@@ -1,6 +1,7 @@
 //! Surfaces with made defects: what is repaired, what is said, and that the result is the clean one.
 
 use glam::DVec3;
+use proptest::prelude::*;
 use vaso_geometry::{GeometryError, LengthUnit, Rejection, SignedDistance, Surface, Vessel, prepare, shapes};
 
 const RADIUS: f64 = 3e-3;
@@ -257,6 +258,11 @@ proptest! {
             }
         }
     }
+
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(64) })]
 
     /// A pipe from which any triangles are gone and turned round still has no wrong side.
     #[test]
