@@ -18,8 +18,10 @@ use crate::{
     winding::WindingTree,
 };
 
-/// Largest angle between the normals of the triangles of a cap and of its plane \[degrees\].
+/// Largest angle between the normals of the triangles of a cap and of its seed \[degrees\].
 const FLAT_DEGREES: f64 = 2.0;
+/// The same to the mean plane of the cap, which a few facets at its rim may leave.
+const RIM_DEGREES: f64 = 10.0;
 /// Largest distance of the vertices of a cap from its plane, as part of the diagonal of the surface.
 const FLAT_DISTANCE: f64 = 1e-3;
 /// Within this part of the diagonal a triangle counts as lying in the plane whatever its normal: the normals
@@ -103,7 +105,7 @@ impl Finder<'_> {
         if normal == DVec3::ZERO {
             return vec![seed];
         }
-        let rough = self.flood(seed, normal, self.surface.triangle(seed)[0]);
+        let rough = self.flood(seed, normal, self.surface.triangle(seed)[0], FLAT_DEGREES);
         let area_vector: DVec3 = rough.iter().map(|&t| self.surface.area_vector(t)).sum();
         let (mut weight, mut moment) = (0.0, DVec3::ZERO);
         for &t in &rough {
@@ -112,19 +114,22 @@ impl Finder<'_> {
             moment += area * self.surface.triangle(t).iter().sum::<DVec3>() / 3.0;
         }
         match area_vector.try_normalize() {
-            Some(mean) => self.flood(seed, mean, moment / weight),
+            Some(mean) => self.flood(seed, mean, moment / weight, RIM_DEGREES),
             None => rough,
         }
     }
 
-    fn flood(&mut self, seed: usize, normal: DVec3, place: DVec3) -> Vec<usize> {
+    fn flood(&mut self, seed: usize, normal: DVec3, place: DVec3, degrees: f64) -> Vec<usize> {
         self.flood += 1;
         self.seen[seed] = self.flood;
         let mut region = vec![seed];
         let mut front = VecDeque::from([seed]);
         while let Some(t) = front.pop_front() {
             for next in self.across[t].into_iter().filter(|&n| n != NONE).map(|n| n as usize) {
-                if self.seen[next] < self.flood && !self.done[next] && self.lies_in(next, normal, place) {
+                if self.seen[next] < self.flood
+                    && !self.done[next]
+                    && self.lies_in(next, normal, place, degrees)
+                {
                     self.seen[next] = self.flood;
                     region.push(next);
                     front.push_back(next);
@@ -135,12 +140,12 @@ impl Finder<'_> {
     }
 
     /// Whether a triangle lies in a plane, up to the tolerances of a cap.
-    fn lies_in(&self, t: usize, normal: DVec3, place: DVec3) -> bool {
+    fn lies_in(&self, t: usize, normal: DVec3, place: DVec3, degrees: f64) -> bool {
         let corners = self.surface.triangle(t);
         let off = corners.iter().map(|&p| (p - place).dot(normal).abs()).fold(0.0, f64::max);
         off <= EXACT_DISTANCE * self.diagonal
             || (off <= FLAT_DISTANCE * self.diagonal
-                && self.surface.triangle_normal(t).dot(normal) >= FLAT_DEGREES.to_radians().cos())
+                && self.surface.triangle_normal(t).dot(normal) >= degrees.to_radians().cos())
     }
 
     /// Measures a region and decides whether it is a cap. `None` when it has no border at all.
