@@ -81,17 +81,50 @@ impl CellGrid {
         self.key = key;
     }
 
-    /// Runs of sorted particles (begin, end) in the 27 cells around `x`, empty runs left out.
-    pub fn runs(&self, x: DVec3) -> impl Iterator<Item = (usize, usize)> + '_ {
+    /// Runs of sorted particles in the 27 cells around `x`; empty ones are left out.
+    #[inline(always)]
+    pub fn runs(&self, x: DVec3) -> Runs {
         let [i, j, k] = self.coordinates(x);
         let [nx, ny, nz] = self.n_cells;
         let (i0, i1) = (i.saturating_sub(1), (i + 1).min(nx - 1));
         let (j0, j1) = (j.saturating_sub(1), (j + 1).min(ny - 1));
         let (k0, k1) = (k.saturating_sub(1), (k + 1).min(nz - 1));
-        (k0..=k1).flat_map(move |k| (j0..=j1).map(move |j| (k * ny + j) * nx)).filter_map(move |row| {
-            let (begin, end) = (self.start[row + i0] as usize, self.start[row + i1 + 1] as usize);
-            (begin < end).then_some((begin, end))
-        })
+        let mut runs = Runs { run: [(0, 0); 9], n: 0 };
+        for k in k0..=k1 {
+            for j in j0..=j1 {
+                let row = (k * ny + j) * nx;
+                let (begin, end) = (self.start[row + i0], self.start[row + i1 + 1]);
+                if begin < end {
+                    runs.run[runs.n] = (begin as usize, end as usize);
+                    runs.n += 1;
+                }
+            }
+        }
+        runs
+    }
+}
+
+/// Runs (begin, end) of sorted particles around a point, at most nine.
+#[derive(Clone, Copy, Debug)]
+pub struct Runs {
+    run: [(usize, usize); 9],
+    n: usize,
+}
+
+impl Runs {
+    /// The runs, in memory order.
+    #[inline(always)]
+    pub fn as_slice(&self) -> &[(usize, usize)] {
+        &self.run[..self.n]
+    }
+}
+
+impl IntoIterator for Runs {
+    type Item = (usize, usize);
+    type IntoIter = std::iter::Take<std::array::IntoIter<(usize, usize), 9>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.run.into_iter().take(self.n)
     }
 }
 
@@ -118,7 +151,7 @@ mod tests {
         for &x in points.iter().step_by(37) {
             let direct = sorted.iter().filter(|y| y.distance(x) < 0.25).count();
             let found =
-                grid.runs(x).flat_map(|(a, b)| &sorted[a..b]).filter(|y| y.distance(x) < 0.25).count();
+                grid.runs(x).into_iter().flat_map(|(a, b)| &sorted[a..b]).filter(|y| y.distance(x) < 0.25).count();
             assert_eq!(direct, found);
         }
         let mut seen = order.clone();

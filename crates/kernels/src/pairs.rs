@@ -235,7 +235,10 @@ impl<R: Real, P: PairLaw<R, K>, const K: usize> LaneWork<R> for Sweep<'_, R, P, 
                 }
                 m += L::N;
             }
-            *sums = total.map(L::sum);
+            // Not `total.map`: it is not inlined for long arrays, and leaves the vector instructions behind.
+            for (sum, lanes) in sums.iter_mut().zip(&total) {
+                *sum = lanes.sum();
+            }
         }
     }
 }

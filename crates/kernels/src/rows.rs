@@ -187,7 +187,7 @@ impl<R: Real> LaneWork<R> for Search<'_> {
         for i in self.first..self.last {
             start.push(at.len() as u32);
             let own = self.set.get(i);
-            for (begin, end) in self.grid.runs(self.position[i]) {
+            for &(begin, end) in self.grid.runs(self.position[i]).as_slice() {
                 debug_assert!(end <= self.other.n);
                 // Room for the whole run, and for one store of a full vector behind it.
                 at.reserve(end - begin + 2 * PAD);

@@ -62,6 +62,43 @@ unsafe fn transpose4(a: __m512, b: __m512, c: __m512, d: __m512) -> [F32x16; 4] 
     }
 }
 
+// Helpers are functions, not closures: a closure cannot be forced to be inlined, and outside the
+// functions that enable the instructions it is ten times slower.
+
+/// The records at `at[0]` and `at[8]`, side by side.
+#[inline(always)]
+unsafe fn two_records(base: *const f32, at: *const u32) -> __m512 {
+    unsafe {
+        let a = _mm256_loadu_ps(base.add(*at as usize));
+        let b = _mm256_loadu_ps(base.add(*at.add(8) as usize));
+        _mm512_insertf32x8::<1>(_mm512_castps256_ps512(a), b)
+    }
+}
+
+/// Sorts pairs of equal fields from four registers into one register a field.
+#[inline(always)]
+unsafe fn gather_fields(a: __m512d, b: __m512d, c: __m512d, d: __m512d) -> [F64x8; 4] {
+    unsafe {
+        let (ab_even, ab_odd) = (_mm512_shuffle_f64x2::<0x88>(a, b), _mm512_shuffle_f64x2::<0xDD>(a, b));
+        let (cd_even, cd_odd) = (_mm512_shuffle_f64x2::<0x88>(c, d), _mm512_shuffle_f64x2::<0xDD>(c, d));
+        [
+            F64x8(_mm512_shuffle_f64x2::<0x88>(ab_even, cd_even)),
+            F64x8(_mm512_shuffle_f64x2::<0x88>(ab_odd, cd_odd)),
+            F64x8(_mm512_shuffle_f64x2::<0xDD>(ab_even, cd_even)),
+            F64x8(_mm512_shuffle_f64x2::<0xDD>(ab_odd, cd_odd)),
+        ]
+    }
+}
+
+/// Separations from sixteen candidates along one axis, in supports.
+#[inline(always)]
+unsafe fn search_delta(own: i32, p: *const i32, unit: __m512) -> __m512 {
+    unsafe {
+        let difference = _mm512_sub_epi32(_mm512_set1_epi32(own), _mm512_loadu_si512(p.cast()));
+        _mm512_mul_ps(_mm512_cvtepi32_ps(difference), unit)
+    }
+}
+
 impl Lanes for F32x16 {
     type Elem = f32;
     const N: usize = 16;
@@ -116,13 +153,11 @@ impl Lanes for F32x16 {
     #[inline(always)]
     unsafe fn records(base: *const f32, at: *const u32) -> [Self; FIELDS] {
         unsafe {
-            let pair = |k: usize| {
-                let a = _mm256_loadu_ps(base.add(*at.add(k) as usize));
-                let b = _mm256_loadu_ps(base.add(*at.add(k + 8) as usize));
-                _mm512_insertf32x8::<1>(_mm512_castps256_ps512(a), b)
-            };
-            let (z0, z1, z2, z3) = (pair(0), pair(1), pair(2), pair(3));
-            let (z4, z5, z6, z7) = (pair(4), pair(5), pair(6), pair(7));
+            let (z0, z1, z2, z3) =
+                (two_records(base, at), two_records(base, at.add(1)), two_records(base, at.add(2)), two_records(base, at.add(3)));
+            let at = at.add(4);
+            let (z4, z5, z6, z7) =
+                (two_records(base, at), two_records(base, at.add(1)), two_records(base, at.add(2)), two_records(base, at.add(3)));
             let [f0, f1, f2, f3] = transpose4(
                 _mm512_shuffle_f32x4::<0x88>(z0, z1),
                 _mm512_shuffle_f32x4::<0x88>(z2, z3),
@@ -196,30 +231,25 @@ impl Lanes for F64x8 {
     #[inline(always)]
     unsafe fn records(base: *const f64, at: *const u32) -> [Self; FIELDS] {
         unsafe {
-            let record = |k: usize| _mm512_loadu_pd(base.add(*at.add(k) as usize));
-            let z: [__m512d; 8] =
-                [record(0), record(1), record(2), record(3), record(4), record(5), record(6), record(7)];
-            let gather = |a: __m512d, b: __m512d, c: __m512d, d: __m512d| {
-                let (ab_even, ab_odd) = (_mm512_shuffle_f64x2::<0x88>(a, b), _mm512_shuffle_f64x2::<0xDD>(a, b));
-                let (cd_even, cd_odd) = (_mm512_shuffle_f64x2::<0x88>(c, d), _mm512_shuffle_f64x2::<0xDD>(c, d));
-                [
-                    Self(_mm512_shuffle_f64x2::<0x88>(ab_even, cd_even)),
-                    Self(_mm512_shuffle_f64x2::<0x88>(ab_odd, cd_odd)),
-                    Self(_mm512_shuffle_f64x2::<0xDD>(ab_even, cd_even)),
-                    Self(_mm512_shuffle_f64x2::<0xDD>(ab_odd, cd_odd)),
-                ]
-            };
-            let even = gather(
-                _mm512_unpacklo_pd(z[0], z[1]),
-                _mm512_unpacklo_pd(z[2], z[3]),
-                _mm512_unpacklo_pd(z[4], z[5]),
-                _mm512_unpacklo_pd(z[6], z[7]),
+            let z0 = _mm512_loadu_pd(base.add(*at as usize));
+            let z1 = _mm512_loadu_pd(base.add(*at.add(1) as usize));
+            let z2 = _mm512_loadu_pd(base.add(*at.add(2) as usize));
+            let z3 = _mm512_loadu_pd(base.add(*at.add(3) as usize));
+            let z4 = _mm512_loadu_pd(base.add(*at.add(4) as usize));
+            let z5 = _mm512_loadu_pd(base.add(*at.add(5) as usize));
+            let z6 = _mm512_loadu_pd(base.add(*at.add(6) as usize));
+            let z7 = _mm512_loadu_pd(base.add(*at.add(7) as usize));
+            let even = gather_fields(
+                _mm512_unpacklo_pd(z0, z1),
+                _mm512_unpacklo_pd(z2, z3),
+                _mm512_unpacklo_pd(z4, z5),
+                _mm512_unpacklo_pd(z6, z7),
             );
-            let odd = gather(
-                _mm512_unpackhi_pd(z[0], z[1]),
-                _mm512_unpackhi_pd(z[2], z[3]),
-                _mm512_unpackhi_pd(z[4], z[5]),
-                _mm512_unpackhi_pd(z[6], z[7]),
+            let odd = gather_fields(
+                _mm512_unpackhi_pd(z0, z1),
+                _mm512_unpackhi_pd(z2, z3),
+                _mm512_unpackhi_pd(z4, z5),
+                _mm512_unpackhi_pd(z6, z7),
             );
             [even[0], odd[0], even[1], odd[1], even[2], odd[2], even[3], odd[3]]
         }
@@ -241,11 +271,7 @@ impl SearchLanes for Search {
     unsafe fn within(own: [i32; 3], x: *const i32, y: *const i32, z: *const i32, unit: f32) -> u32 {
         unsafe {
             let unit = _mm512_set1_ps(unit);
-            let delta = |own: i32, p: *const i32| {
-                let difference = _mm512_sub_epi32(_mm512_set1_epi32(own), _mm512_loadu_si512(p.cast()));
-                _mm512_mul_ps(_mm512_cvtepi32_ps(difference), unit)
-            };
-            let (dx, dy, dz) = (delta(own[0], x), delta(own[1], y), delta(own[2], z));
+            let (dx, dy, dz) = (search_delta(own[0], x, unit), search_delta(own[1], y, unit), search_delta(own[2], z, unit));
             let r2 = _mm512_fmadd_ps(dx, dx, _mm512_fmadd_ps(dy, dy, _mm512_mul_ps(dz, dz)));
             u32::from(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(r2, _mm512_set1_ps(1.0)))
         }
