@@ -102,3 +102,45 @@ fn border(patch: impl Iterator<Item = [u32; 3]>) -> Vec<(u32, u32)> {
     let inner = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
     edges.iter().filter(|e| !inner(e)).copied().collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vaso_geometry::{LengthUnit, prepare, shapes};
+
+    fn vessel(surface: Surface) -> Vessel {
+        prepare(surface, Some(LengthUnit::Millimetre)).expect("a closed shape is a vessel")
+    }
+
+    #[test]
+    fn a_pipe_drawn_out_is_a_longer_pipe() {
+        let pipe = vessel(shapes::pipe(2.0, 10.0, DVec3::Z, 24));
+        let longer = vessel(shapes::pipe(2.0, 13.0, DVec3::Z, 24));
+        let extended = draw_out(&pipe, &[1e-3, 2e-3]);
+        assert!((extended.surface.volume() / longer.surface.volume() - 1.0).abs() < 1e-12);
+        assert!((extended.surface.area() / longer.surface.area() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn beyond_a_cap_the_distance_is_that_to_the_border() {
+        let dp = 0.4e-3;
+        let lumen = ExtendedLumen::new(&vessel(shapes::pipe(2.0, 10.0, DVec3::Z, 96)), 3.0 * dp, dp, dp);
+        for (r, z) in [(1.8e-3, -0.8e-3), (2.7e-3, -0.8e-3), (2.7e-3, 10.8e-3), (1.8e-3, 5e-3)] {
+            let (distance, outward) = lumen.query(DVec3::new(r, 0.0, z));
+            assert!((distance - (r - 2e-3)).abs() < 2e-6, "{distance} at r {r}, z {z}");
+            assert!(outward.dot(DVec3::X) > 0.99, "{outward}");
+        }
+    }
+
+    /// The caps of a U-bend look the same way: drawn out, each passes the other at a distance. A wall
+    /// across the way of one of them stops it.
+    #[test]
+    fn an_opening_is_drawn_out_as_far_as_the_way_is_free() {
+        let bend = vessel(shapes::bent_pipe(2.0, 5.0, std::f64::consts::PI, 48));
+        let lumen = ExtendedLumen::new(&bend, 3e-3, 1e-3, 0.4e-3);
+        assert!(lumen.length.iter().all(|l| (l - 3e-3).abs() < 1e-12), "{:?}", lumen.length);
+        let hook = vessel(shapes::bent_pipe(2.0, 5.0, 1.6 * std::f64::consts::PI, 48));
+        let lumen = ExtendedLumen::new(&hook, 3e-3, 1e-3, 0.4e-3);
+        assert!(lumen.length.iter().any(|l| *l < 2.9e-3), "{:?}", lumen.length);
+    }
+}

@@ -46,6 +46,11 @@ impl Settings {
     pub fn new(spacing: f64) -> Self {
         Self { spacing, smoothing: 1.3, lattice: Lattice::Cubic, steps: 200, seed: 0 }
     }
+
+    /// Support radius of the kernel 2h \[m\].
+    fn support(&self) -> f64 {
+        2.0 * self.smoothing * self.spacing
+    }
 }
 
 /// Particles of one body.
@@ -103,7 +108,7 @@ pub fn rigid_wall(
     let dp = settings.spacing;
     let thickness = WALL_LAYERS * dp;
     error::particle_count(vessel.surface.area() * thickness, dp)?;
-    let region = wall::WallLayer::new(vessel, thickness, 2.0 * settings.smoothing * dp, dp);
+    let region = wall::WallLayer::new(vessel, thickness, settings.support(), dp);
     let volume = lattice::volume(&region, 0.5 * dp);
     let mut body = fill(&region, volume, settings, progress)?;
     // Between limbs nearer than a spacing there is no room: what is left in a lumen is taken out.
@@ -111,6 +116,7 @@ pub fn rigid_wall(
     let keep = |x: &DVec3| closed.query(*x).distance > 0.0 && region.exact_level(*x) < 0.0;
     let kept: Vec<DVec3> = body.position.par_iter().copied().filter(keep).collect();
     body.quality.count = kept.len();
+    body.quality.volume_error = kept.len() as f64 * dp.powi(3) / volume - 1.0;
     body.position = kept;
     (body.depth, body.normal) = body.position.par_iter().map(|x| region.depth(*x)).unzip();
     Ok(body)

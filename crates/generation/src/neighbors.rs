@@ -48,7 +48,7 @@ impl Neighbors {
             let first = c * CHUNK;
             for i in first..(first + CHUNK).min(position.len()) {
                 let x = position[i];
-                for (a, b) in grid.runs(x) {
+                for &(a, b) in grid.runs(x).as_slice() {
                     for j in a..b {
                         if position[j].distance_squared(x) < limit && j != i {
                             chunk.neighbor.push(j as u32);

@@ -6,6 +6,9 @@ use crate::region::Region;
 use glam::DVec3;
 use vaso_geometry::{Opening, Vessel};
 
+/// By how much the lumen is drawn out beyond the collars, in spacings: in front of an opening a point is
+/// then deep in the lumen, not on the border of anything, until past the end of the wall.
+const MARGIN: f64 = 2.0;
 /// Error of the distance, in spacings: of the table near the border of a cap, and exact.
 const TABLE_TOLERANCE: f64 = 0.5;
 const EXACT_TOLERANCE: f64 = 0.01;
@@ -16,7 +19,7 @@ const EXACT_TOLERANCE: f64 = 0.01;
 /// come close their walls merge.
 pub(crate) struct WallLayer<'a> {
     vessel: &'a Vessel,
-    /// The lumen, drawn out to the ends of the collars.
+    /// The lumen, drawn out past the ends of the collars.
     lumen: ExtendedLumen,
     thickness: f64,
     spacing: f64,
@@ -25,7 +28,7 @@ pub(crate) struct WallLayer<'a> {
 impl<'a> WallLayer<'a> {
     /// Layer of `thickness` \[m\] with collars of length `collar` \[m\] for particles of `spacing` \[m\].
     pub(crate) fn new(vessel: &'a Vessel, thickness: f64, collar: f64, spacing: f64) -> Self {
-        let lumen = ExtendedLumen::new(vessel, collar, thickness + spacing, spacing);
+        let lumen = ExtendedLumen::new(vessel, collar + MARGIN * spacing, thickness + spacing, spacing);
         Self { vessel, lumen, thickness, spacing }
     }
 
@@ -45,28 +48,30 @@ impl<'a> WallLayer<'a> {
         tolerance: f64,
     ) -> impl Iterator<Item = (f64, DVec3)> + '_ {
         let openings = self.vessel.openings.iter().zip(&self.lumen.length);
-        openings.filter_map(move |(opening, collar)| {
+        openings.filter_map(move |(opening, length)| {
+            // Where the lumen cannot be drawn out in full, the collar is shorter too.
+            let collar = (length - MARGIN * self.spacing).max(0.0);
             let beyond = -opening.depth(x);
             let reach = self.thickness + self.spacing;
-            if beyond <= 0.0 || beyond > collar + reach || is_far(opening, x, reach) {
+            if beyond <= 0.0 || beyond > length + reach || is_far(opening, x, reach) {
                 return None;
             }
             let lateral = opening.lateral(x).max(0.0);
             let plane = (collar - beyond, opening.normal);
-            let past = (beyond - collar).max(0.0);
-            let collar_distance = lateral.hypot(past);
-            if lateral > reach || depth >= collar_distance - tolerance {
+            let past = (beyond - length).max(0.0);
+            let border_distance = lateral.hypot(past);
+            if lateral > reach || depth >= border_distance - tolerance {
                 return (lateral <= reach).then_some(plane);
             }
-            // Another limb is nearer than the collar: its wall goes on past the end of the collar, up to
-            // the bisector between the two.
-            let before = 0.5 * (collar_distance - depth);
+            // Another limb is nearer than the drawn-out border: its wall goes on past the end of the collar,
+            // up to the bisector between the two.
+            let before = 0.5 * (border_distance - depth);
             if before <= plane.0 {
                 return Some(plane);
             }
             let in_plane = (x - opening.center) - beyond * opening.normal;
-            let from_collar = lateral * in_plane.normalize_or_zero() + past * opening.normal;
-            Some((before, (outward - from_collar / collar_distance).normalize_or_zero()))
+            let from_border = lateral * in_plane.normalize_or_zero() + past * opening.normal;
+            Some((before, (outward - from_border.normalize_or_zero()).normalize_or_zero()))
         })
     }
 

@@ -28,7 +28,7 @@ fn hold(vessel: &Vessel, spacing: f64) -> (Body, Body) {
     assert!((q.kernel_sum_mean.expect("the vessel is wide") - 1.0).abs() < 0.015, "{q:?}");
 
     let q = &wall.quality;
-    assert!(q.nearest_neighbor_min > 0.5, "{q:?}");
+    assert!(q.nearest_neighbor_min > 0.65, "{q:?}");
     assert!(q.nearest_neighbor_cv < 0.06, "{q:?}");
     let closed = SignedDistance::closed(vessel);
     assert!(wall.position.iter().all(|x| closed.query(*x).distance > 0.0), "wall stands in a lumen");
