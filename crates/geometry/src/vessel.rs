@@ -21,6 +21,9 @@ const MIN_VOLUME: f64 = 1e-9;
 /// Largest coordinate, in whatever unit. Products of four lengths must stay far from overflow.
 const MAX_COORDINATE: f64 = 1e30;
 
+/// Diagonals, in an unknown unit, that fit no vessel in millimetres well and some in other units.
+const UNCLEAR_DIAGONAL: std::ops::Range<f64> = 1.0..5.0;
+
 /// A vessel ready to be filled: closed, outward, in metres, with its openings known.
 #[derive(Debug, Clone)]
 pub struct Vessel {
@@ -67,9 +70,10 @@ pub fn prepare(raw: Surface, unit: Option<LengthUnit>) -> Result<Vessel, Geometr
     let diagonal = raw.diagonal();
     let unit = unit.unwrap_or_else(|| {
         let guess = LengthUnit::guess(diagonal);
+        let across = diagonal * guess.metres() * 1e3;
+        let doubt = if UNCLEAR_DIAGONAL.contains(&diagonal) { "; it may as well be in metres or centimetres" } else { "" };
         audit.notices.push(format!(
-            "no unit given: took \"{guess}\", which makes the vessel {:.4} mm across its bounding box",
-            diagonal * guess.metres() * 1e3
+            "no unit given: took \"{guess}\", which makes the vessel {across:.4} mm across its bounding box{doubt}"
         ));
         guess
     });

@@ -163,6 +163,21 @@ fn a_square_duct_of_few_triangles_has_two_openings() {
 }
 
 #[test]
+fn a_guessed_unit_is_said_and_doubted_where_it_should_be() {
+    for (scale, unit, doubted) in [
+        (1.0, LengthUnit::Metre, false),
+        (1e3, LengthUnit::Millimetre, false),
+        (1e2, LengthUnit::Millimetre, true),
+    ] {
+        let found = prepare(pipe().map(|v| v * scale), None).expect("a vessel");
+        assert_eq!((found.unit, found.audit.unit_guessed), (unit, true));
+        let [notice] = &found.audit.notices[..] else { panic!("one notice: {:?}", found.audit.notices) };
+        assert!(notice.starts_with("no unit given") && notice.contains("may as well") == doubted, "{notice}");
+    }
+    assert!(vessel(pipe()).audit.notices.is_empty());
+}
+
+#[test]
 fn a_membrane_across_the_lumen_leaves_inside_inside() {
     // A ring of the wall closed by a disc: its border edges have three triangles.
     let mut surface = pipe();

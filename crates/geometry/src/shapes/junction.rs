@@ -2,6 +2,9 @@
 
 use glam::DVec3;
 
+/// Bound on the steps of [`Junction::project`]; two or three are enough off the creases.
+const MAX_NEWTON_STEPS: usize = 6;
+
 /// A branch: a tube about a straight axis from the crossing outwards.
 pub(super) struct Branch {
     /// Unit vector along the axis.
@@ -81,14 +84,18 @@ impl Junction {
         origin + 0.5 * (low + high) * direction
     }
 
-    /// The wall point nearest to a point close to the wall, by a few Newton steps along the gradient.
+    /// The wall point nearest to a point close to the wall, by Newton steps along the gradient.
     pub(super) fn project(&self, mut x: DVec3) -> DVec3 {
         let step = 1e-5 * self.blend;
-        for _ in 0..4 {
+        for _ in 0..MAX_NEWTON_STEPS {
+            let value = self.field(x);
+            if value.abs() < 1e-9 * self.blend {
+                break;
+            }
             let slope =
                 DVec3::AXES.map(|e| (self.field(x + step * e) - self.field(x - step * e)) / (2.0 * step));
             let gradient = DVec3::from(slope);
-            x -= self.field(x) / gradient.length_squared().max(0.25) * gradient;
+            x -= value / gradient.length_squared().max(0.25) * gradient;
         }
         x
     }
