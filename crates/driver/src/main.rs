@@ -134,7 +134,7 @@ fn execute(command: Command) -> Result<(), DriverError> {
             Ok(())
         }
         Command::Report { out } => {
-            let file = out; //TMP vaso_report::write_report(&out)?;
+            let file = vaso_report::write_report(&out)?;
             println!("{}", file.display());
             Ok(())
         }

@@ -97,7 +97,7 @@ fn run_precision<R: Real>(
     // After a full disk the summary may not find room either; the first error is the one to tell.
     let written = summary.write(&out.file("summary.json")).map_err(DriverError::from);
     ended.and(written)?;
-    //TMP vaso_report::write_report(out.path())?;
+    vaso_report::write_report(out.path())?;
     Ok(summary)
 }
 
