@@ -24,15 +24,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         seconds.push(start.elapsed().as_secs_f64());
     }
     let megabytes = std::fs::metadata(&path)?.len() as f64 / 1e6;
-    let mean = |slice: &[f64]| slice.iter().sum::<f64>() / slice.len() as f64;
+    let median = |slice: &[f64]| {
+        let mut sorted = slice.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted[sorted.len() / 2]
+    };
     let tenth = (frames / 10).max(1);
     println!(
-        "{frames} frames of {particles} to {} particles: {:.1} ms a frame (first tenth {:.1}, last tenth {:.1}), \
+        "{frames} frames of {particles} to {} particles: median {:.1} ms a frame (first tenth {:.1}, last tenth {:.1}), \
          {megabytes:.1} MB, {:.1} bytes a particle and frame",
         particles + particles / 10,
-        1e3 * mean(&seconds),
-        1e3 * mean(&seconds[..tenth]),
-        1e3 * mean(&seconds[frames - tenth..]),
+        1e3 * median(&seconds),
+        1e3 * median(&seconds[..tenth]),
+        1e3 * median(&seconds[frames - tenth..]),
         megabytes * 1e6 / (frames * particles) as f64
     );
     drop(series);

@@ -21,10 +21,7 @@ pub(crate) fn beside(path: &Path, suffix: &str) -> PathBuf {
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     let draft = beside(path, "new");
     let written = File::create(&draft)
-        .and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        })
+        .and_then(|mut file| file.write_all(bytes))
         .map_err(|source| IoError::system(path, "write", source));
     if let Err(error) = written {
         remove_if_present(&draft);
@@ -33,12 +30,18 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), IoError> {
     publish(&draft, path)
 }
 
-/// Moves a finished file to its public name and asks the folder to remember it.
+/// Forces a finished file to disk, moves it to its public name and asks the folder to remember it.
 pub(crate) fn publish(draft: &Path, path: &Path) -> Result<(), IoError> {
-    fs::rename(draft, path).map_err(|source| {
+    // Opened for writing, as one system (Windows) flushes no other handle.
+    let moved = File::options()
+        .write(true)
+        .open(draft)
+        .and_then(|file| file.sync_all())
+        .and_then(|()| fs::rename(draft, path));
+    if let Err(source) = moved {
         remove_if_present(draft);
-        IoError::system(path, "replace", source)
-    })?;
+        return Err(IoError::system(path, "replace", source));
+    }
     sync_folder(path);
     Ok(())
 }
@@ -46,7 +49,7 @@ pub(crate) fn publish(draft: &Path, path: &Path) -> Result<(), IoError> {
 /// Makes a rename survive a power cut where the system can do that.
 ///
 /// Its failure loses nothing that was promised before (the old name is still whole), so it is not an error.
-pub(crate) fn sync_folder(path: &Path) {
+fn sync_folder(path: &Path) {
     if let Some(folder) = path.parent() {
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let _ = File::open(folder).and_then(|handle| handle.sync_all());

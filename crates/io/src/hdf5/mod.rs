@@ -83,7 +83,7 @@ pub(crate) trait Write: Sized {
     fn extend(&self, path: &str, values: Values<'_>) -> Outcome<()>;
     /// Makes a dataset of fixed size and fills it; `columns` as in [`Growing`].
     fn fixed(&self, path: &str, values: Values<'_>, columns: Option<usize>) -> Outcome<()>;
-    /// Completes the file and forces it to disk; before this it is not readable.
+    /// Completes the file; before this it is not readable. Forcing it to disk is the caller's part.
     fn close(self) -> Outcome<()>;
 }
 

@@ -126,7 +126,7 @@ impl Write for Writer {
     }
 
     fn close(self) -> Outcome<()> {
-        self.0.close().map_err(words)
+        self.0.close_no_sync().map_err(words)
     }
 }
 
