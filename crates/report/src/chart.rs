@@ -11,6 +11,8 @@ const TOP: f64 = 14.0;
 const BOTTOM: f64 = 40.0;
 /// Horizontal buckets a curve is thinned to; each keeps its lowest and highest point.
 const BUCKETS: usize = 500;
+/// Ticks wanted on the time axis.
+const TIME_TICKS: usize = 8;
 /// Colours of the style sheet, `--c0` to `--c6`; dashes tell the curves apart beyond that and without colour.
 const COLORS: usize = 7;
 const DASHES: [&str; 3] = ["", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 3\""];
@@ -31,8 +33,7 @@ pub(crate) fn chart(title: &str, label: &str, curves: &[Curve]) -> String {
     let extent = |pick: fn(&(f64, f64)) -> f64| {
         all().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     };
-    let (start, end) = extent(|p| p.0);
-    let end = if end > start { end } else { start + 1.0 };
+    let (start, end) = time_range(extent(|p| p.0));
     let (low, high) = extent(|p| p.1);
     let y_ticks = ticks(low, high, 5);
     let (low, high) = (y_ticks[0], y_ticks[y_ticks.len() - 1]);
@@ -60,7 +61,7 @@ pub(crate) fn chart(title: &str, label: &str, curves: &[Curve]) -> String {
             number(tick, 4)
         );
     }
-    for tick in ticks(start, end, 8).into_iter().filter(|&t| t >= start && t <= end * (1.0 + 1e-12)) {
+    for tick in ticks(start, end, TIME_TICKS).into_iter().filter(|&t| start <= t && t <= end) {
         svg += &format!(
             "<line x1=\"{x:.1}\" x2=\"{x:.1}\" y1=\"{:.1}\" y2=\"{:.1}\"/>\
              <text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
@@ -105,6 +106,15 @@ pub(crate) fn chart(title: &str, label: &str, curves: &[Curve]) -> String {
         escape(title),
         escape(label)
     )
+}
+
+/// The range of time shown: from zero where the curves start near it, and on to a round number that is near.
+fn time_range((start, end): (f64, f64)) -> (f64, f64) {
+    let end = if end > start { end } else { start + 1.0 };
+    let near = 0.03 * (end - start);
+    let start = if (0.0..near).contains(&start) { 0.0 } else { start };
+    let round = ticks(start, end, TIME_TICKS).last().copied().filter(|&tick| tick <= end + near);
+    (start, round.unwrap_or(end).max(end))
 }
 
 /// The curves in words, for a reader who does not see them.
@@ -172,6 +182,14 @@ mod tests {
         assert!(kept.len() <= 2 * BUCKETS);
         assert!(kept.contains(&(7777.0, 99.0)) && kept.contains(&(15_000.0, -50.0)));
         assert!(kept.windows(2).all(|pair| pair[0].0 < pair[1].0));
+    }
+
+    #[test]
+    fn the_time_axis_ends_on_round_numbers_that_are_near() {
+        assert_eq!(time_range((0.0027, 0.4998)), (0.0, 0.5));
+        assert_eq!(time_range((0.0, 0.46)), (0.0, 0.46));
+        assert_eq!(time_range((2.0, 3.0)), (2.0, 3.0));
+        assert_eq!(time_range((1.0, 1.0)), (1.0, 2.0));
     }
 
     #[test]

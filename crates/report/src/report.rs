@@ -59,8 +59,18 @@ fn waveforms(path: &Path) -> String {
         Ok(data) => data,
         Err(error) => return format!("<p class=\"note\">No waveforms: {}</p>\n", prose(&error.to_string())),
     };
-    chart("Flow", "ml/s, positive out of the vessel", &curves(&data, ".flow_m3_s", 1e6))
-        + &chart("Pressure", "kPa", &curves(&data, ".pressure_pa", 1e-3))
+    chart("Flow", "ml/s, positive out of the vessel", &curves(&data, ".flow_m3_s", 1e6)) + &pressure(&data)
+}
+
+/// Pressure in the unit that keeps the axis short.
+fn pressure(data: &TableData) -> String {
+    let pascals = curves(data, ".pressure_pa", 1.0);
+    let values = pascals.iter().flat_map(|curve| &curve.points).map(|point| point.1.abs());
+    if values.filter(|x| x.is_finite()).fold(0.0, f64::max) < 2000.0 {
+        chart("Pressure", "Pa", &pascals)
+    } else {
+        chart("Pressure", "kPa", &curves(data, ".pressure_pa", 1e-3))
+    }
 }
 
 /// The columns with a suffix as curves named by what comes before it.

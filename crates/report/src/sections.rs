@@ -187,7 +187,7 @@ pub(crate) fn openings(summary: &Summary) -> String {
                 number(entry.opening.area_m2 * 1e6, 4),
                 number(entry.opening.radius_m * 1e3, 4),
                 number(entry.mean_flow_m3_s * 1e6, 4),
-                number(entry.mean_pressure_pa / 1e3, 4),
+                number(entry.mean_pressure_pa, 4),
             ]
         })
         .collect();
@@ -198,7 +198,7 @@ pub(crate) fn openings(summary: &Summary) -> String {
         Column::Numbers("area", "mm²"),
         Column::Numbers("radius", "mm"),
         Column::Numbers("mean flow", "ml/s"),
-        Column::Numbers("mean pressure", "kPa"),
+        Column::Numbers("mean pressure", "Pa"),
     ];
     table("Means at the openings; flow is positive out of the vessel", &columns, &rows)
 }
@@ -218,10 +218,11 @@ pub(crate) fn scene(summary: &Summary) -> String {
         ),
     );
     if let Some(surface) = &summary.surface {
+        let pieces = if surface.components == 1 { "piece" } else { "pieces" };
         let closed = if surface.watertight { "closed" } else { "not closed" };
         row(
             "surface",
-            format!("{} triangles, {} piece(s), {closed}", count(surface.triangles), surface.components),
+            format!("{} triangles in {} {pieces}, {closed}", count(surface.triangles), surface.components),
         );
         row("enclosed volume", format!("{} ml", number(surface.volume_m3 * 1e6, 4)));
         row("area", format!("{} cm²", number(surface.area_m2 * 1e4, 4)));

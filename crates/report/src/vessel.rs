@@ -27,7 +27,10 @@ pub(crate) fn figures(out: &Path, spacing: f64) -> String {
                     "Largest speed along each line of sight, seen from the side",
                     options(Quantity::Speed, Style::Peak),
                 ),
-                ("Pressure, cut along the middle of the vessel", options(Quantity::Pressure, Style::Cut)),
+                (
+                    "Pressure averaged over two spacings, cut along the middle of the vessel",
+                    options(Quantity::Pressure, Style::Cut),
+                ),
             ],
         );
     }

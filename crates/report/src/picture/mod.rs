@@ -6,6 +6,7 @@
 mod canvas;
 mod cut;
 mod figure;
+mod smooth;
 mod splat;
 mod view;
 
@@ -25,7 +26,7 @@ use view::View;
 pub enum Quantity {
     /// Magnitude of the velocity \[m/s\].
     Speed,
-    /// Pressure \[Pa\].
+    /// Pressure \[Pa\], averaged over the particles within two spacings.
     Pressure,
     /// Magnitude of the wall shear stress \[Pa\].
     WallShear,
@@ -128,8 +129,12 @@ pub fn draw(frame: &FrameData, path: &Path, options: &PictureOptions) -> Result<
             present: names.map(String::as_str).collect::<Vec<_>>().join(", "),
         }
     })?;
-    let (low, high, ticks) = range(options.quantity, &values);
     let spacing = options.spacing.filter(|&s| s > 0.0).unwrap_or_else(|| nearest_distance(&frame.position));
+    let values = match options.quantity {
+        Quantity::Pressure => smooth::local_mean(&frame.position, &values, spacing),
+        _ => values,
+    };
+    let (low, high, ticks) = range(options.quantity, &values);
 
     let view = View::new(&frame.position, spacing, options.width, options.style == Style::Peak);
     let seen: Vec<DVec3> = frame.position.iter().map(|&x| view.to_pixels(x)).collect();
