@@ -118,6 +118,11 @@ impl Openings {
         self.reference
     }
 
+    /// Identity the next new particle will get.
+    pub fn next_id(&self) -> u64 {
+        self.next_id
+    }
+
     /// Particles near caps, as [`Self::locate`] found them.
     pub fn zones(&self) -> &[CapZone] {
         &self.zones
