@@ -47,7 +47,7 @@ fn limits_of(summary: &Summary) -> Vec<String> {
             .to_owned(),
     );
     limits.push(
-        "Pictures show one instant, with colours clipped at the outer half per cent of the values; \
+        "Pictures show one instant, with colours clipped at the outer per cent of the values; \
          the numbers are in the files beside this page."
             .to_owned(),
     );

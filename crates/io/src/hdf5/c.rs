@@ -1,7 +1,7 @@
 //! The reference C library through `hdf5-metno`, to check the pure-Rust library against.
 
 use super::{Element, Growing, Number, Outcome, Read, Values, Write};
-use hdf5_metno::types::VarLenAscii;
+use hdf5_metno::types::{FixedAscii, VarLenAscii};
 use hdf5_metno::{Dataset, Extent, File, Group, H5Type, SimpleExtents};
 use std::path::Path;
 
@@ -146,7 +146,13 @@ impl Read for Reader {
 
     fn text(&self, group: &str, name: &str) -> Outcome<String> {
         let attribute = group_of(&self.0, group)?.attr(name).map_err(words)?;
-        attribute.read_scalar::<VarLenAscii>().map(|text| text.as_str().to_owned()).map_err(words)
+        // The other library writes text of fixed length; the longest of ours is a digest of 64 letters.
+        let fixed = || attribute.read_scalar::<FixedAscii<256>>().map(|text| text.as_str().to_owned());
+        attribute
+            .read_scalar::<VarLenAscii>()
+            .map(|text| text.as_str().to_owned())
+            .or_else(|_| fixed())
+            .map_err(words)
     }
 
     fn datasets(&self, group: &str) -> Outcome<Vec<String>> {

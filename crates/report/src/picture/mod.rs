@@ -151,14 +151,14 @@ pub fn draw(frame: &FrameData, path: &Path, options: &PictureOptions) -> Result<
     Ok(VesselPicture { picture, low, high, ticks, pixel: view.pixel() })
 }
 
-/// Colour range: what all but one in two hundred values at either end fit into, widened to round numbers.
+/// Colour range: what all but one in a hundred values at either end fit into, widened to round numbers.
 fn range(quantity: Quantity, values: &[f64]) -> (f64, f64, Vec<f64>) {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let at =
         |part: f64| sorted.get(((sorted.len().max(1) - 1) as f64 * part) as usize).copied().unwrap_or(0.0);
-    let low = if quantity == Quantity::Pressure { at(0.005) } else { 0.0 };
-    let ticks = ticks(low, at(0.995), 5);
+    let low = if quantity == Quantity::Pressure { at(0.01) } else { 0.0 };
+    let ticks = ticks(low, at(0.99), 5);
     (ticks[0], ticks[ticks.len() - 1], ticks)
 }
 
