@@ -66,7 +66,8 @@ fn search(criterion: &mut Criterion, cube: &Cube) {
     group.throughput(Throughput::Elements(cube.position.len() as u64));
     for isa in Isa::available() {
         let mut rows = cube.rows(isa);
-        group.bench_function(BenchmarkId::new("build", isa.name()), |b| b.iter(|| cube.build(isa, &mut rows)));
+        group
+            .bench_function(BenchmarkId::new("build", isa.name()), |b| b.iter(|| cube.build(isa, &mut rows)));
     }
     group.finish();
 }

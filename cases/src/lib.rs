@@ -21,10 +21,7 @@ pub fn surfaces() -> Vec<CaseSurface> {
             file: "carotid/carotid.stl",
             surface: millimetres(bifurcation(&BifurcationSpec::default())),
         },
-        CaseSurface {
-            file: "pipe/pipe.stl",
-            surface: millimetres(pipe(3.175e-3, 31.75e-3, DVec3::Z, 96)),
-        },
+        CaseSurface { file: "pipe/pipe.stl", surface: millimetres(pipe(3.175e-3, 31.75e-3, DVec3::Z, 96)) },
     ]
 }
 
@@ -49,7 +46,8 @@ mod tests {
         for made in surfaces() {
             let shipped = read_surface(&folder.join(made.file)).expect("shipped surfaces can be read");
             let unit = Some(LengthUnit::Millimetre);
-            let (a, b) = (prepare(shipped, unit).expect("sound"), prepare(made.surface, unit).expect("sound"));
+            let (a, b) =
+                (prepare(shipped, unit).expect("sound"), prepare(made.surface, unit).expect("sound"));
             assert_eq!(a.surface.triangles.len(), b.surface.triangles.len(), "{}", made.file);
             let difference = (a.surface.volume() / b.surface.volume() - 1.0).abs();
             assert!(difference < 1e-5, "{}: volumes differ by {difference:e}", made.file);

@@ -1,1 +1,47 @@
-//! vaso tests.
+//! Tools of the tests that span crates: cases run through the library, and flows compared with formulas.
+
+pub mod poiseuille;
+
+use std::path::PathBuf;
+use vaso_driver::{Case, Flow, Plan, world};
+use vaso_fluid::Real;
+
+/// The workspace root.
+pub fn root() -> PathBuf {
+    let tests = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    tests.parent().map(PathBuf::from).unwrap_or(tests)
+}
+
+/// The folder of outside data, where there is one; else says that the test is skipped.
+///
+/// # Panics
+/// When there is none in continuous integration, where these tests must run.
+pub fn data() -> Option<PathBuf> {
+    match std::env::var_os("VASO_DATA") {
+        Some(folder) => Some(PathBuf::from(folder)),
+        None => {
+            assert!(std::env::var_os("CI").is_none(), "VASO_DATA is not set, but CI is");
+            println!("skipped: VASO_DATA is not set");
+            None
+        }
+    }
+}
+
+/// A flow of `case` from rest, with the particles made anew or taken from the cache.
+///
+/// # Panics
+/// When the case is wrong: these are the project's own.
+pub fn flow<R: Real>(case: &Case) -> (Flow<R>, Plan) {
+    let plan = Plan::new(case).unwrap_or_else(|e| panic!("{e}"));
+    let bodies = world::Bodies::make(case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
+    (world::build_flow(case, &plan, bodies), plan)
+}
+
+/// A case of the folder `cases` with overrides.
+///
+/// # Panics
+/// When the case is wrong.
+pub fn case(name: &str, overrides: &[(&str, &str)]) -> Case {
+    let set: Vec<(String, String)> = overrides.iter().map(|(k, v)| ((*k).into(), (*v).into())).collect();
+    Case::load(&root().join("cases").join(name), &set).unwrap_or_else(|e| panic!("{e}"))
+}

@@ -180,7 +180,8 @@ impl Openings {
         }
         let mut leaving: Vec<(usize, usize)> = {
             let this = &*self;
-            state.position
+            state
+                .position
                 .par_iter()
                 .enumerate()
                 .with_min_len(4096)
@@ -208,8 +209,10 @@ impl Openings {
 
     fn label(&self, state: &mut FluidState) {
         let (length, fringe) = (self.buffer_length(), FRINGE * self.spacing);
-        (state.opening.par_iter_mut(), state.position.par_iter()).into_par_iter().with_min_len(4096).for_each(
-            |(label, &x)| {
+        (state.opening.par_iter_mut(), state.position.par_iter())
+            .into_par_iter()
+            .with_min_len(4096)
+            .for_each(|(label, &x)| {
                 let before = *label;
                 *label = FluidState::NO_OPENING;
                 let mut nearest = self.spacing;
@@ -224,8 +227,7 @@ impl Openings {
                         }
                     }
                 }
-            },
-        );
+            });
     }
 
     /// Finds the particles near caps, after the fluid has been sorted.
@@ -236,31 +238,32 @@ impl Openings {
         let ports = &self.ports;
         let spacing = self.spacing;
         self.zones.clear();
-        self.zones.par_extend(state.position.par_iter().enumerate().with_min_len(4096).filter_map(|(i, &x)| {
-            let near = ports.iter().enumerate().filter_map(|(k, port)| {
-                let s = port.opening.depth(x);
-                if !(-length..reach).contains(&s) {
-                    return None;
-                }
-                let lateral = port.opening.lateral(x);
-                (lateral < spacing).then_some((lateral, k, s))
-            });
-            let (_, k, s) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some(CapZone {
-                particle: i as u32,
-                opening: k as u32,
-                normal: ports[k].opening.normal,
-                in_buffer: s <= length,
-            })
-        }));
+        self.zones.par_extend(state.position.par_iter().enumerate().with_min_len(4096).filter_map(
+            |(i, &x)| {
+                let near = ports.iter().enumerate().filter_map(|(k, port)| {
+                    let s = port.opening.depth(x);
+                    if !(-length..reach).contains(&s) {
+                        return None;
+                    }
+                    let lateral = port.opening.lateral(x);
+                    (lateral < spacing).then_some((lateral, k, s))
+                });
+                let (_, k, s) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+                Some(CapZone {
+                    particle: i as u32,
+                    opening: k as u32,
+                    normal: ports[k].opening.normal,
+                    in_buffer: s <= length,
+                })
+            },
+        ));
         self.shape.clear();
         let zones = &self.zones;
         self.shape.par_extend(zones.par_iter().with_min_len(256).map(|zone| {
             let port = &ports[zone.opening as usize];
             match &port.condition {
-                Condition::Velocity { profile, .. } => {
-                    profile.at(port.opening.project(state.position[zone.particle as usize]), &port.opening.polygon)
-                }
+                Condition::Velocity { profile, .. } => profile
+                    .at(port.opening.project(state.position[zone.particle as usize]), &port.opening.polygon),
                 Condition::Pressure { .. } => 0.0,
             }
         }));
@@ -305,7 +308,9 @@ impl Openings {
             let (i, k) = (zone.particle as usize, zone.opening as usize);
             let velocity = match self.ports[k].condition {
                 // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
-                Condition::Velocity { .. } if fluid.state.opening[i] == k as i32 => -zone.normal * (imposed[k] * shape),
+                Condition::Velocity { .. } if fluid.state.opening[i] == k as i32 => {
+                    -zone.normal * (imposed[k] * shape)
+                }
                 Condition::Velocity { .. } => continue,
                 Condition::Pressure { .. } if !zone.in_buffer => continue,
                 Condition::Pressure { .. } => {
@@ -340,9 +345,12 @@ impl Openings {
                     let (sum, n) = (0..state.len())
                         .filter(|&i| {
                             let x = state.position[i];
-                            (near..far).contains(&port.opening.depth(x)) && port.opening.lateral(x) < port.opening.radius
+                            (near..far).contains(&port.opening.depth(x))
+                                && port.opening.lateral(x) < port.opening.radius
                         })
-                        .fold((0.0, 0), |(sum, n), i| (sum + self.numbers.pressure(state.density_change[i]), n + 1));
+                        .fold((0.0, 0), |(sum, n), i| {
+                            (sum + self.numbers.pressure(state.density_change[i]), n + 1)
+                        });
                     reference + sum / f64::from(n.max(1))
                 }
             };

@@ -84,7 +84,10 @@ mod tests {
         let n = 300;
         for i in 0..n {
             for j in 0..n {
-                let at = [-3.0 + 6.0 * (f64::from(i) + 0.5) / f64::from(n), -2.0 + 4.0 * (f64::from(j) + 0.5) / f64::from(n)];
+                let at = [
+                    -3.0 + 6.0 * (f64::from(i) + 0.5) / f64::from(n),
+                    -2.0 + 4.0 * (f64::from(j) + 0.5) / f64::from(n),
+                ];
                 if (at[0] / 3.0).powi(2) + (at[1] / 2.0).powi(2) < 1.0 {
                     sum += Profile::Parabolic.at(at, &rim);
                     inside += 1.0;

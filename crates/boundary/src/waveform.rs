@@ -15,7 +15,9 @@ pub struct Waveform {
 #[non_exhaustive]
 pub enum WaveformError {
     /// No rows, or columns of different length.
-    #[error("a waveform needs at least one row with a time and a value, got {times} times and {values} values")]
+    #[error(
+        "a waveform needs at least one row with a time and a value, got {times} times and {values} values"
+    )]
     Empty {
         /// Number of times.
         times: usize,

@@ -68,7 +68,14 @@ fn match_openings(scene: &Scene, vessel: &Vessel) -> Result<Vec<Option<usize>>, 
         let metres = vessel.unit.metres();
         let rows = vessel.openings.iter().enumerate().map(|(k, o)| {
             let c = o.center / metres;
-            format!("    {}: near = [{:.3}, {:.3}, {:.3}], radius {:.3}", rank_name(k), c.x, c.y, c.z, o.radius / metres)
+            format!(
+                "    {}: near = [{:.3}, {:.3}, {:.3}], radius {:.3}",
+                rank_name(k),
+                c.x,
+                c.y,
+                c.z,
+                o.radius / metres
+            )
         });
         rows.collect::<Vec<_>>().join("\n")
     };
@@ -85,7 +92,10 @@ fn match_openings(scene: &Scene, vessel: &Vessel) -> Result<Vec<Option<usize>>, 
         } else if let Some(other) = found[k].replace(s) {
             problems.push(format!(
                 "{file}: `opening.{}.near`: {:?} is at the same opening as `{}`; each needs one of\n{}",
-                opening.name, opening.near, scene.openings[other].name, list()
+                opening.name,
+                opening.near,
+                scene.openings[other].name,
+                list()
             ));
         }
     }

@@ -57,7 +57,16 @@ fn vessel(vessel: &Vessel, file: &Path) -> Checked {
         let _ = writeln!(
             text,
             "opening  {:<10} near [{:.4}, {:.4}, {:.4}] {}  normal [{:.4}, {:.4}, {:.4}]  area {:.3} mm2  radius {:.3} mm",
-            rank_name(k), c.x, c.y, c.z, vessel.unit, n.x, n.y, n.z, o.area * 1e6, o.radius * 1e3
+            rank_name(k),
+            c.x,
+            c.y,
+            c.z,
+            vessel.unit,
+            n.x,
+            n.y,
+            n.z,
+            o.area * 1e6,
+            o.radius * 1e3
         );
     }
     for notice in &vessel.audit.notices {

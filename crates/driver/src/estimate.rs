@@ -33,7 +33,13 @@ impl Flow {
     ///
     /// Outlets are taken to share the inflow by area with a parabolic peak of twice the mean; the
     /// narrowest section before the first outlet carries all of it.
-    pub fn new(vessel: &Vessel, openings: &[PlannedOpening], density: f64, viscosity: f64, ramp: f64) -> Self {
+    pub fn new(
+        vessel: &Vessel,
+        openings: &[PlannedOpening],
+        density: f64,
+        viscosity: f64,
+        ramp: f64,
+    ) -> Self {
         let mut inflow = 0.0;
         let mut top_speed: f64 = 0.0;
         let mut reason = String::from("no inflow");
@@ -93,8 +99,9 @@ impl Flow {
             (dynamic, "the dynamic pressure"),
         ];
         let cause = parts.iter().max_by(|a, b| a.0.total_cmp(&b.0)).map_or("", |p| p.1);
-        let reynolds_peak =
-            inlet.map_or(density * mean * 2.0 * smallest_radius / viscosity, |(r, u)| density * u * 2.0 * r / viscosity);
+        let reynolds_peak = inlet.map_or(density * mean * 2.0 * smallest_radius / viscosity, |(r, u)| {
+            density * u * 2.0 * r / viscosity
+        });
         Self {
             top_speed,
             top_speed_reason: reason,
@@ -126,7 +133,8 @@ pub fn cost(case: &Case, numbers: &Numbers, precision: Precision, end_time: f64)
     // A curved wall has more volume outside than a flat one: 1 + t / 2R, with R = 2V/A of a tube.
     let area = case.vessel.wall_area();
     let radius = 2.0 * case.vessel.surface.volume() / area;
-    let collars: f64 = case.vessel.openings.iter().map(|o| 2.0 * PI * o.radius * 2.0 * numbers.smoothing_length).sum();
+    let collars: f64 =
+        case.vessel.openings.iter().map(|o| 2.0 * PI * o.radius * 2.0 * numbers.smoothing_length).sum();
     let wall = (area + collars) * layer * (1.0 + 0.5 * layer / radius) / spacing.powi(3);
     let step = numbers.acoustic_step(0.5 * numbers.reference_speed);
     let (substep, bytes) = match precision {

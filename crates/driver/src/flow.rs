@@ -159,7 +159,8 @@ impl<R: Real> Flow<R> {
             }
             dt = next;
         }
-        self.time = if until - (self.time + duration) < 1e-9 * duration { until } else { self.time + duration };
+        self.time =
+            if until - (self.time + duration) < 1e-9 * duration { until } else { self.time + duration };
         self.advective_steps += 1;
         ledger.time(Stage::Transport, || fluid.transport(openings.zones()));
         ledger.time(Stage::Guard, || self.readings = openings.measure(&fluid.state, self.time));
@@ -197,8 +198,9 @@ impl<R: Real> Flow<R> {
         self.ledger.add(Stage::Guard, start.elapsed());
         if speed > MAX_MACH * sound_speed && !self.allow_mach {
             let state = &self.fluid.state;
-            let fastest = (0..state.len())
-                .max_by(|&a, &b| state.velocity[a].length_squared().total_cmp(&state.velocity[b].length_squared()));
+            let fastest = (0..state.len()).max_by(|&a, &b| {
+                state.velocity[a].length_squared().total_cmp(&state.velocity[b].length_squared())
+            });
             if let Some(i) = fastest {
                 return Err(Diverged::TooFast {
                     id: state.id[i],

@@ -95,7 +95,8 @@ impl Plan {
         let mut numbers = Numbers::new(density, viscosity, flow.top_speed, spacing);
         numbers.sound_speed = sound_speed;
         numbers.smoothing_length = scene.numerics.smoothing_length * spacing;
-        numbers.density_blend = scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
+        numbers.density_blend =
+            scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
 
         let mut warnings = case.vessel.audit.notices.clone();
         let settings = crate::world::generation_settings(scene);
@@ -114,8 +115,10 @@ impl Plan {
         let precision = scene.numerics.precision;
         let isa = Isa::detect();
         let predicted = estimate::cost(case, &numbers, precision, scene.run.end_time);
-        let womersley =
-            scene.run.period.map(|t| flow.inlet_radius * (std::f64::consts::TAU * density / (t * viscosity)).sqrt());
+        let womersley = scene
+            .run
+            .period
+            .map(|t| flow.inlet_radius * (std::f64::consts::TAU * density / (t * viscosity)).sqrt());
         Ok(Self {
             numbers,
             sound_speed_reason,
@@ -154,7 +157,10 @@ fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Drive
             problems.push(format!(
                 "{}: the surface has an opening near [{:.3}, {:.3}, {:.3}] that no `[[opening]]` speaks of; \
                  add one with that `near`",
-                scene.file.display(), c.x, c.y, c.z
+                scene.file.display(),
+                c.x,
+                c.y,
+                c.z
             ));
             continue;
         };
@@ -165,7 +171,8 @@ fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Drive
         };
         let condition = match &spec.condition {
             vaso_scene::Condition::Velocity { profile: p, value } => {
-                signal(value, 1.0, spec.ramp.unwrap_or(ramp)).map(|mean| Condition::Velocity { profile: profile(*p), mean })
+                signal(value, 1.0, spec.ramp.unwrap_or(ramp))
+                    .map(|mean| Condition::Velocity { profile: profile(*p), mean })
             }
             vaso_scene::Condition::Flow { profile: p, value } => {
                 signal(value, 1.0 / opening.area, spec.ramp.unwrap_or(ramp))

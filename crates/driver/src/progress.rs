@@ -22,8 +22,11 @@ impl Progress {
     /// Progress display, silent if asked.
     pub fn new(quiet: bool) -> Self {
         let terminal = std::io::stderr().is_terminal();
-        let target =
-            if terminal && !quiet { ProgressDrawTarget::stderr_with_hz(5) } else { ProgressDrawTarget::hidden() };
+        let target = if terminal && !quiet {
+            ProgressDrawTarget::stderr_with_hz(5)
+        } else {
+            ProgressDrawTarget::hidden()
+        };
         let bar = ProgressBar::with_draw_target(Some(PARTS as u64), target);
         if let Ok(style) = ProgressStyle::with_template("{bar:32} {percent:>3} % {msg}") {
             bar.set_style(style);

@@ -101,7 +101,12 @@ impl Results {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn after_step<R: Real>(&mut self, flow: &mut Flow<R>, case: &Case, plan: &Plan) -> Result<(), DriverError> {
+    pub fn after_step<R: Real>(
+        &mut self,
+        flow: &mut Flow<R>,
+        case: &Case,
+        plan: &Plan,
+    ) -> Result<(), DriverError> {
         let dt = flow.time - self.last_time;
         self.last_time = flow.time;
         self.interval.add(flow, dt);
@@ -228,7 +233,8 @@ pub fn append_frame<R: Real>(
     let state: &FluidState = &flow.fluid.state;
     let reference = flow.openings.reference_pressure(flow.time);
     let rho0 = flow.fluid.numbers().rest_density;
-    let pressure: Vec<f64> = (0..state.len()).into_par_iter().map(|i| reference + flow.fluid.pressure(i)).collect();
+    let pressure: Vec<f64> =
+        (0..state.len()).into_par_iter().map(|i| reference + flow.fluid.pressure(i)).collect();
     let density: Vec<f64> = state.density_change.par_iter().map(|d| rho0 + d).collect();
     let mut frame =
         Frame { time: flow.time, position: &state.position, ids: Some(&state.id), ..Frame::default() };
@@ -313,7 +319,11 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
                 _ => &[],
             };
             let shared = if effect.name.starts_with("opening.") {
-                let both = plan.effects.iter().filter(|e| e.on && OPENING_EFFECTS.contains(&e.name.as_str())).count();
+                let both = plan
+                    .effects
+                    .iter()
+                    .filter(|e| e.on && OPENING_EFFECTS.contains(&e.name.as_str()))
+                    .count();
                 both.max(1) as f64
             } else {
                 1.0

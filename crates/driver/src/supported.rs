@@ -12,7 +12,7 @@ use vaso_scene::{Blood, Condition as Asked, Field, Generator, Profile, Scene, Wa
 ///
 /// # Errors
 /// One problem for each such request.
-pub fn check(case: &Case) -> Result<(), DriverError> {
+pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     let scene = &case.scene;
     let mut problems = Vec::new();
     let mut refuse = |key: String, seen: &str, allowed: &str| {
@@ -59,7 +59,7 @@ pub fn check(case: &Case) -> Result<(), DriverError> {
 ///
 /// # Errors
 /// When there is no blood, or it is not Newtonian.
-pub fn newtonian(scene: &Scene) -> Result<(f64, f64), DriverError> {
+pub(crate) fn newtonian(scene: &Scene) -> Result<(f64, f64), DriverError> {
     match scene.blood {
         Some(Blood { density, viscosity: Viscosity::Newtonian { viscosity } }) => Ok((density, viscosity)),
         Some(_) => Err(DriverError::input(format!(
@@ -76,9 +76,10 @@ pub fn newtonian(scene: &Scene) -> Result<(f64, f64), DriverError> {
 }
 
 /// Every effect the program knows, with the reason it is on or off.
-pub fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectEntry> {
+pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectEntry> {
     let named = |test: &dyn Fn(&Condition) -> bool| {
-        let names: Vec<&str> = openings.iter().filter(|o| test(&o.condition)).map(|o| o.name.as_str()).collect();
+        let names: Vec<&str> =
+            openings.iter().filter(|o| test(&o.condition)).map(|o| o.name.as_str()).collect();
         names.join(", ")
     };
     let inlets = named(&|c| matches!(c, Condition::Velocity { .. }));
@@ -101,12 +102,21 @@ pub fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectEntry> {
         EffectEntry { name: name.into(), on: active, called_for: active, reason, seconds: None, bytes: None }
     };
     vec![
-        on("blood.pressure", "a scene with blood: momentum and continuity of a weakly compressible fluid".into()),
+        on(
+            "blood.pressure",
+            "a scene with blood: momentum and continuity of a weakly compressible fluid".into(),
+        ),
         on("blood.viscosity", "Newtonian, as given by `blood.viscosity`".into()),
         on("blood.density_blend", "holds the density of a closed stream against drift".into()),
-        on("blood.gradient_correction", "kernel sums at a wall or in disorder are 1 to 3 % off without it".into()),
+        on(
+            "blood.gradient_correction",
+            "kernel sums at a wall or in disorder are 1 to 3 % off without it".into(),
+        ),
         on("blood.transport_velocity", "keeps particles evenly spread along streamlines".into()),
-        on("wall.rigid", "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach".into()),
+        on(
+            "wall.rigid",
+            "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach".into(),
+        ),
         either("opening.velocity", &inlets, "no opening prescribes a velocity or flow"),
         either("opening.pressure", &outlets, "no opening prescribes a pressure"),
         either("opening.waveform", &tables, "all openings are steady"),

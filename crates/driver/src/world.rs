@@ -61,11 +61,15 @@ impl Bodies {
             return Ok(Self { fluid, wall, cached: true, seconds: [start.elapsed().as_secs_f64(), 0.0] });
         }
         let wrong = |source| DriverError::Generation { file: case.scene.file.clone(), source };
-        let fluid = vaso_generation::fluid(&case.vessel, &settings, &mut |step, moved| progress("fluid", step, moved))
-            .map_err(wrong)?;
+        let fluid = vaso_generation::fluid(&case.vessel, &settings, &mut |step, moved| {
+            progress("fluid", step, moved)
+        })
+        .map_err(wrong)?;
         let fluid_seconds = start.elapsed().as_secs_f64();
-        let wall = vaso_generation::rigid_wall(&case.vessel, &settings, &mut |step, moved| progress("wall", step, moved))
-            .map_err(wrong)?;
+        let wall = vaso_generation::rigid_wall(&case.vessel, &settings, &mut |step, moved| {
+            progress("wall", step, moved)
+        })
+        .map_err(wrong)?;
         let seconds = [fluid_seconds, start.elapsed().as_secs_f64() - fluid_seconds];
         // A read-only folder costs the cache, not the run.
         let _ = cache.store(&key, &pack(&fluid, &wall));
@@ -130,7 +134,8 @@ fn unpack(archive: &Archive) -> Option<(Body, Body)> {
     let body = |name: &str| {
         let [volume, volume_error, nn_min, nn_cv, sum_mean, sum_std, residual, volume_cv] =
             *archive.floats(&format!("{name}.numbers"))?.first_chunk::<8>()?;
-        let [count, outside, iterations] = *archive.integers(&format!("{name}.counts"))?.first_chunk::<3>()?;
+        let [count, outside, iterations] =
+            *archive.integers(&format!("{name}.counts"))?.first_chunk::<3>()?;
         let some = |x: f64| (!x.is_nan()).then_some(x);
         Some(Body {
             position: archive.vectors(&format!("{name}.position"))?,
@@ -173,13 +178,15 @@ pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> 
     let Bodies { fluid, wall, .. } = bodies;
     let low = wall.position.iter().fold(DVec3::INFINITY, |a, b| a.min(*b)) - spacing;
     let high = wall.position.iter().fold(DVec3::NEG_INFINITY, |a, b| a.max(*b)) + spacing;
-    let distance = DistanceGrid::build(&SignedDistance::wall(&case.vessel), (low, high), spacing, BAND * spacing);
+    let distance =
+        DistanceGrid::build(&SignedDistance::wall(&case.vessel), (low, high), spacing, BAND * spacing);
     let velocity = vec![DVec3::ZERO; wall.position.len()];
     let volume = vec![wall.volume; wall.position.len()];
     let view =
         WallView { position: &wall.position, velocity: &velocity, depth: &wall.depth, volume: &volume };
     let state = FluidState::at_rest(fluid.position, fluid.volume, plan.numbers.rest_density);
-    let body = Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
+    let body =
+        Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
     let ports = plan.openings.iter().map(|o| (o.opening.clone(), o.condition.clone())).collect();
     let openings = Openings::new(ports, &plan.numbers, plan.take_out_pressure);
     Flow::new(body, openings, case.scene.numerics.allow_mach)

@@ -82,7 +82,8 @@ impl<R: Real> Fluid<R> {
         };
         let (isa, frame) = (self.isa, &self.frame);
         let (current, wall) = (&self.current, &self.wall);
-        let fluid_gather = Gather { frame, own: current, other: current, own_second: None, other_second: None };
+        let fluid_gather =
+            Gather { frame, own: current, other: current, own_second: None, other_second: None };
         let wall_gather =
             Gather { frame, own: current, other: &wall.dynamic, own_second: None, other_second: None };
         let state = &mut self.state;
@@ -105,7 +106,14 @@ impl<R: Real> Fluid<R> {
                 let mut walls = [[0.0; pressure::WALL_SUMS]; CHUNK];
                 sweep(isa, &law, &fluid_gather, numbered(row, c), Store::Read(offsets), &mut fluid);
                 if !wall_row.has_no_pairs() {
-                    sweep(isa, &WallPressureForce, &wall_gather, numbered(wall_row, c), Store::None, &mut walls);
+                    sweep(
+                        isa,
+                        &WallPressureForce,
+                        &wall_gather,
+                        numbered(wall_row, c),
+                        Store::None,
+                        &mut walls,
+                    );
                 }
                 let mut top = 0.0;
                 for k in 0..velocity.len() {
@@ -114,14 +122,15 @@ impl<R: Real> Fluid<R> {
                     let change = density_change[i];
                     let rho = rho0 + change;
                     let neighbours = DVec3::new(f[0] + w[0], f[1] + w[1], f[2] + w[2]);
-                    let pressure_force =
-                        gradient * frozen.correction.mul(neighbours) - numbers.pressure(change) * frozen.own_pressure;
+                    let pressure_force = gradient * frozen.correction.mul(neighbours)
+                        - numbers.pressure(change) * frozen.own_pressure;
                     let dissipation = gradient * DVec3::new(f[3], f[4], f[5]);
                     // Closing speed of the particle and its mirror image behind a wall at rest.
                     let closing = (-2.0 * velocity[k].dot(frozen.wall_normal)).max(0.0);
                     let limited = (numbers.dissipation_limiter * closing / numbers.sound_speed).min(1.0);
                     let wall_force = frozen.wall_area * limited * impedance * closing * frozen.wall_normal;
-                    let acceleration = (pressure_force + dissipation + wall_force) / rho + frozen.acceleration;
+                    let acceleration =
+                        (pressure_force + dissipation + wall_force) / rho + frozen.acceleration;
                     let v = velocity[k] + dt * acceleration;
                     velocity[k] = v;
                     position[k] += 0.5 * dt * v;

@@ -6,7 +6,9 @@ use crate::state::FluidState;
 use crate::wall::WallSide;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland};
+use vaso_kernels::{
+    CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland,
+};
 use vaso_particles::{WallDistance, WallView, visit};
 
 /// What a particle keeps for all acoustic steps of one advective step.

@@ -26,7 +26,14 @@ impl CellGrid {
         let extent = (bounds.1 - bounds.0).max(DVec3::splat(cell));
         let n_cells = extent.to_array().map(|e| (e / cell).floor() as usize + 1);
         let total = n_cells.iter().product::<usize>();
-        Self { origin: bounds.0, cell, n_cells, start: vec![0; total + 1], key: Vec::new(), cursor: Vec::new() }
+        Self {
+            origin: bounds.0,
+            cell,
+            n_cells,
+            start: vec![0; total + 1],
+            key: Vec::new(),
+            cursor: Vec::new(),
+        }
     }
 
     /// Edge of a cell \[m\].
@@ -150,8 +157,12 @@ mod tests {
         let sorted: Vec<DVec3> = order.iter().map(|&o| points[o as usize]).collect();
         for &x in points.iter().step_by(37) {
             let direct = sorted.iter().filter(|y| y.distance(x) < 0.25).count();
-            let found =
-                grid.runs(x).into_iter().flat_map(|(a, b)| &sorted[a..b]).filter(|y| y.distance(x) < 0.25).count();
+            let found = grid
+                .runs(x)
+                .into_iter()
+                .flat_map(|(a, b)| &sorted[a..b])
+                .filter(|y| y.distance(x) < 0.25)
+                .count();
             assert_eq!(direct, found);
         }
         let mut seen = order.clone();

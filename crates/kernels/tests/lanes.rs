@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use vaso_kernels::{
-    CHUNK, CellGrid, Frame, Gather, Isa, Lanes, Own, Pair, PairLaw, PairStore, Real, Records, Rows, SearchSet,
-    Store, Stored, Wendland, sweep,
+    CHUNK, CellGrid, Frame, Gather, Isa, Lanes, Own, Pair, PairLaw, PairStore, Real, Records, Rows,
+    SearchSet, Store, Stored, Wendland, sweep,
 };
 
 const SPACING: f64 = 1e-3;
@@ -98,8 +98,7 @@ fn sums<R: Real>(cloud: &Cloud, isa: Isa) -> Vec<[f64; 5]> {
     first.resize(n);
     second.resize(n);
     first.fill(|i| {
-        let (x, fixed, f) =
-            (cloud.frame.in_supports(cloud.position[i]), cloud.set.get(i), &cloud.fields[i]);
+        let (x, fixed, f) = (cloud.frame.in_supports(cloud.position[i]), cloud.set.get(i), &cloud.fields[i]);
         let volume = 1.0 + 0.1 * f[0];
         [
             R::coordinate(fixed[0], x[0]),

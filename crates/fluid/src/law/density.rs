@@ -13,7 +13,11 @@ impl<R: Real> PairLaw<R, 1> for Divergence {
 
     #[inline(always)]
     fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; 1]) {
-        let dv = [own.velocity[0] - p.velocity[0], own.velocity[1] - p.velocity[1], own.velocity[2] - p.velocity[2]];
+        let dv = [
+            own.velocity[0] - p.velocity[0],
+            own.velocity[1] - p.velocity[1],
+            own.velocity[2] - p.velocity[2],
+        ];
         sums[0] = gradient_weight(p.u, p.volume).fma(dot(dv, p.d), sums[0]);
     }
 }

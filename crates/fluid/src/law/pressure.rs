@@ -44,7 +44,11 @@ impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidPressure {
     #[inline(always)]
     fn pair<L: Lanes<Elem = R>>(c: &Dissipation<L>, own: &Own<L>, p: &Pair<L>, sums: &mut [L; FLUID_SUMS]) {
         let g = gradient_weight(p.u, p.volume);
-        let dv = [own.velocity[0] - p.velocity[0], own.velocity[1] - p.velocity[1], own.velocity[2] - p.velocity[2]];
+        let dv = [
+            own.velocity[0] - p.velocity[0],
+            own.velocity[1] - p.velocity[1],
+            own.velocity[2] - p.velocity[2],
+        ];
         let approach = dot(dv, p.d).fnma(p.r_inv, p.stored).max(L::zero());
         let beta = (approach * c.limiter_over_speed).min(L::constant(1.0));
         let dissipative = beta * approach * c.impedance;

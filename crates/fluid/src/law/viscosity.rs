@@ -26,7 +26,11 @@ impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidViscosity {
         let b_j = sym_mul(&p.second, p.d);
         let b_i = sym_mul(&own.second, p.d);
         let factor = (dot(b_i, p.d) + dot(b_j, p.d)) * (p.r_inv * p.r_inv);
-        let dv = [own.velocity[0] - p.velocity[0], own.velocity[1] - p.velocity[1], own.velocity[2] - p.velocity[2]];
+        let dv = [
+            own.velocity[0] - p.velocity[0],
+            own.velocity[1] - p.velocity[1],
+            own.velocity[2] - p.velocity[2],
+        ];
         let gd = [g * p.d[0], g * p.d[1], g * p.d[2]];
         add_scaled(sums, 0, g, b_j);
         add_scaled(sums, 3, g * factor, dv);
@@ -57,8 +61,13 @@ impl<R: Real> PairLaw<R, WALL_SUMS> for WallViscosity {
         let g = gradient_weight(p.u, p.volume);
         let two = L::constant(2.0);
         let ratio = (p.scalar * own.scalar).min(L::constant(MAX_EXTRAPOLATION));
-        let factor = two * dot(sym_mul(&own.second, p.d), p.d) * (p.r_inv * p.r_inv) * (L::constant(1.0) + ratio);
-        let dv = [own.velocity[0] - p.velocity[0], own.velocity[1] - p.velocity[1], own.velocity[2] - p.velocity[2]];
+        let factor =
+            two * dot(sym_mul(&own.second, p.d), p.d) * (p.r_inv * p.r_inv) * (L::constant(1.0) + ratio);
+        let dv = [
+            own.velocity[0] - p.velocity[0],
+            own.velocity[1] - p.velocity[1],
+            own.velocity[2] - p.velocity[2],
+        ];
         let g2 = two * g;
         let gd = [g2 * p.d[0], g2 * p.d[1], g2 * p.d[2]];
         add_scaled(sums, 0, g * factor, dv);

@@ -80,7 +80,8 @@ unsafe fn four_fields(base: *const f32, at: *const u32) -> [F32x8; 4] {
 unsafe fn two_fields(base: *const f64, at: *const u32) -> (F64x4, F64x4) {
     unsafe {
         let (a0, a2) = (_mm_loadu_pd(base.add(*at as usize)), _mm_loadu_pd(base.add(*at.add(2) as usize)));
-        let (a1, a3) = (_mm_loadu_pd(base.add(*at.add(1) as usize)), _mm_loadu_pd(base.add(*at.add(3) as usize)));
+        let (a1, a3) =
+            (_mm_loadu_pd(base.add(*at.add(1) as usize)), _mm_loadu_pd(base.add(*at.add(3) as usize)));
         let a = _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(a0), a2);
         let b = _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(a1), a3);
         (F64x4(_mm256_unpacklo_pd(a, b)), F64x4(_mm256_unpackhi_pd(a, b)))

@@ -153,11 +153,19 @@ impl Lanes for F32x16 {
     #[inline(always)]
     unsafe fn records(base: *const f32, at: *const u32) -> [Self; FIELDS] {
         unsafe {
-            let (z0, z1, z2, z3) =
-                (two_records(base, at), two_records(base, at.add(1)), two_records(base, at.add(2)), two_records(base, at.add(3)));
+            let (z0, z1, z2, z3) = (
+                two_records(base, at),
+                two_records(base, at.add(1)),
+                two_records(base, at.add(2)),
+                two_records(base, at.add(3)),
+            );
             let at = at.add(4);
-            let (z4, z5, z6, z7) =
-                (two_records(base, at), two_records(base, at.add(1)), two_records(base, at.add(2)), two_records(base, at.add(3)));
+            let (z4, z5, z6, z7) = (
+                two_records(base, at),
+                two_records(base, at.add(1)),
+                two_records(base, at.add(2)),
+                two_records(base, at.add(3)),
+            );
             let [f0, f1, f2, f3] = transpose4(
                 _mm512_shuffle_f32x4::<0x88>(z0, z1),
                 _mm512_shuffle_f32x4::<0x88>(z2, z3),
@@ -271,7 +279,8 @@ impl SearchLanes for Search {
     unsafe fn within(own: [i32; 3], x: *const i32, y: *const i32, z: *const i32, unit: f32) -> u32 {
         unsafe {
             let unit = _mm512_set1_ps(unit);
-            let (dx, dy, dz) = (search_delta(own[0], x, unit), search_delta(own[1], y, unit), search_delta(own[2], z, unit));
+            let (dx, dy, dz) =
+                (search_delta(own[0], x, unit), search_delta(own[1], y, unit), search_delta(own[2], z, unit));
             let r2 = _mm512_fmadd_ps(dx, dx, _mm512_fmadd_ps(dy, dy, _mm512_mul_ps(dz, dz)));
             u32::from(_mm512_cmp_ps_mask::<_CMP_LT_OQ>(r2, _mm512_set1_ps(1.0)))
         }

@@ -1,0 +1,187 @@
+//! The program at the terminal: answers, exit codes, what is written and what is not.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::Path;
+use vaso_tests::{data, root};
+
+fn vaso() -> Command {
+    // Built with the workspace's tests; a member crate's tests cannot ask cargo to build another's binary.
+    let test = std::env::current_exe().expect("this program has a path");
+    let folder = test.parent().and_then(Path::parent).expect("tests lie in target/<profile>/deps");
+    let binary = folder.join(format!("vaso{}", std::env::consts::EXE_SUFFIX));
+    assert!(
+        binary.exists(),
+        "{} is missing: run `cargo test --workspace`, which builds it",
+        binary.display()
+    );
+    Command::new(binary)
+}
+
+fn json(command: &mut Command) -> Value {
+    let output = command.output().expect("the program can be started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("standard output is JSON and nothing else")
+}
+
+/// A copy of the pipe case in a folder of its own.
+fn pipe(folder: &Path) {
+    for file in ["case.toml", "pipe.stl"] {
+        std::fs::copy(root().join("cases/pipe").join(file), folder.join(file)).expect("cases can be copied");
+    }
+}
+
+fn coarse(folder: &Path, command: &str) -> Command {
+    let mut vaso = vaso();
+    vaso.arg(command).arg(folder).args(["--set", "particles.spacing=0.8 mm", "--set", "run.end_time=20 ms"]);
+    vaso
+}
+
+#[test]
+fn check_answers_in_json() {
+    let answer = json(vaso().arg("check").arg(root().join("cases/carotid")).arg("--json"));
+    assert_eq!(answer["openings"].as_array().map(Vec::len), Some(3));
+    assert!(answer["predicted"]["particles"]["fluid"].as_u64().is_some_and(|n| n > 10_000));
+    assert!(answer["numbers"]["sound_speed_m_s"].as_f64().is_some_and(|c| c > 1.0));
+    assert!(answer["effects"].as_array().is_some_and(|e| e.iter().any(|e| e["on"] == false)));
+}
+
+#[test]
+fn check_reads_bare_surfaces() {
+    let Some(data) = data() else { return };
+    let file = data.join("geometry/aorta_arch_vmr0024/aorta_lumen.stl");
+    let answer = json(vaso().arg("check").arg(file).args(["--unit", "cm", "--json"]));
+    assert_eq!(answer["openings"].as_array().map(Vec::len), Some(6));
+    let volume = answer["surface"]["volume_m3"].as_f64().unwrap_or(f64::NAN);
+    assert!((volume - 65.10e-6).abs() < 0.01e-6, "{volume}");
+}
+
+/// Every file of the set of defects does what its README expects.
+#[test]
+fn defects_are_mended_or_refused() {
+    let Some(data) = data() else { return };
+    let folder = data.join("geometry/defects");
+    let accepted = [
+        "00_base",
+        "01_reversed_normals",
+        "02_mixed_winding",
+        "04_open_inlet",
+        "05_all_caps_open",
+        "06_duplicate_triangles",
+        "07_zero_area_slivers",
+        "08_floating_component",
+        "13_metres",
+        "18_binary_starting_with_solid",
+    ];
+    for name in accepted {
+        let unit = if name == "13_metres" { "m" } else { "mm" };
+        let file = folder.join(format!("{name}.stl"));
+        let answer = json(vaso().arg("check").arg(file).args(["--unit", unit, "--json"]));
+        let volume = answer["surface"]["volume_m3"].as_f64().unwrap_or(f64::NAN);
+        assert!((volume / 1865.3e-9 - 1.0).abs() < 1e-3, "{name}: {volume}");
+        assert_eq!(answer["openings"].as_array().map(Vec::len), Some(3), "{name}");
+        let told = answer["surface"]["repairs"].as_array().map_or(0, Vec::len);
+        let clean = ["00_base", "13_metres", "18_binary_starting_with_solid"].contains(&name);
+        assert_eq!(told == 0, clean, "{name}: {}", answer["surface"]["repairs"]);
+    }
+    for (name, word) in [("19_truncated", "length"), ("20_empty", "triangle")] {
+        let output = vaso().arg("check").arg(folder.join(format!("{name}.stl"))).output().expect("starts");
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{name}: {text}");
+        assert!(text.contains(name) && text.contains(word), "{name}: {text}");
+    }
+}
+
+#[test]
+fn a_run_leaves_all_its_files_and_guards_them() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    pipe(folder.path());
+    let summary = json(coarse(folder.path(), "run").arg("--json"));
+    assert_eq!(summary["status"], "completed");
+    assert_eq!(summary["stability"]["escaped_particles"], 0);
+    let out = folder.path().join("out");
+    for file in ["fluid.vtkhdf", "openings.csv", "summary.json", "report.html"] {
+        assert!(out.join(file).metadata().is_ok_and(|m| m.len() > 0), "{file} is missing");
+    }
+    let table = vaso_io::read_table(&out.join("openings.csv")).expect("the table can be read");
+    assert_eq!(table.header[0], "time_s");
+    assert!(table.column("inlet.flow_m3_s").is_some() && table.column("outlet.pressure_pa").is_some());
+    let before = std::fs::read(out.join("summary.json")).expect("summary");
+    let again = coarse(folder.path(), "run").arg("--quiet").output().expect("starts");
+    assert_eq!(again.status.code(), Some(2), "a finished folder is not written over");
+    assert_eq!(std::fs::read(out.join("summary.json")).expect("summary"), before);
+    assert!(coarse(folder.path(), "run").args(["--quiet", "--force"]).status_ok());
+}
+
+trait StatusOk {
+    fn status_ok(&mut self) -> bool;
+}
+
+impl StatusOk for Command {
+    fn status_ok(&mut self) -> bool {
+        self.output().is_ok_and(|o| o.status.success())
+    }
+}
+
+#[test]
+fn particles_come_with_their_quality() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    pipe(folder.path());
+    let report = json(coarse(folder.path(), "particles").arg("--json"));
+    let fluid = &report["quality"]["fluid"];
+    assert_eq!(fluid["outside"], 0);
+    assert!(fluid["nearest_neighbor_min"].as_f64().is_some_and(|x| x > 0.65), "{fluid}");
+    assert!(folder.path().join("out/particles.vtkhdf").exists());
+}
+
+#[test]
+fn wrong_input_ends_with_two_and_writes_nothing() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    pipe(folder.path());
+    for (set, word) in [
+        ("particles.spacing=8 mm", "spacing"),
+        ("particles.spacing=-1 mm", "spacing"),
+        ("blood.viscosity=3.5", "viscosity"),
+        ("wall.model=shell", "wall"),
+        ("opening.outlet.condition=windkessel", "outlet"),
+        ("opening.inlet.near=[100.0, 0.0, 0.0]", "near"),
+        ("nonsense.key=1", "nonsense"),
+    ] {
+        let output = vaso().arg("run").arg(folder.path()).args(["--set", set]).output().expect("starts");
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{set}: {text}");
+        assert!(text.contains(word), "{set}: {text}");
+        assert!(!folder.path().join("out").exists(), "{set} wrote something");
+    }
+    let output = vaso().args(["run", "no-such-case"]).output().expect("starts");
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_says_so_and_leaves_a_checkpoint() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    pipe(folder.path());
+    let binary = vaso().get_program().to_owned();
+    let mut child = std::process::Command::new(binary)
+        .arg("run")
+        .arg(folder.path())
+        .args(["--quiet", "--set", "particles.spacing=0.8 mm", "--set", "run.end_time=100 s"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("starts");
+    let out = folder.path().join("out");
+    // The table appears with the first rows, when the flow runs.
+    let started = std::time::Instant::now();
+    while !out.join("openings.csv").exists() {
+        assert!(started.elapsed().as_secs() < 120, "the run does not start");
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+    let kill = std::process::Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
+    assert!(kill.is_ok_and(|s| s.success()));
+    assert_eq!(child.wait().expect("ends").code(), Some(130));
+    assert!(out.join("checkpoint.h5").exists());
+    let summary: Value =
+        serde_json::from_slice(&std::fs::read(out.join("summary.json")).expect("summary")).expect("JSON");
+    assert_eq!(summary["status"], "interrupted");
+}
