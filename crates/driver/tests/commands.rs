@@ -2,20 +2,24 @@
 
 use assert_cmd::Command;
 use serde_json::Value;
-use std::path::Path;
-use vaso_tests::{data, root};
+use std::path::{Path, PathBuf};
 
 fn vaso() -> Command {
-    // Built with the workspace's tests; a member crate's tests cannot ask cargo to build another's binary.
-    let test = std::env::current_exe().expect("this program has a path");
-    let folder = test.parent().and_then(Path::parent).expect("tests lie in target/<profile>/deps");
-    let binary = folder.join(format!("vaso{}", std::env::consts::EXE_SUFFIX));
-    assert!(
-        binary.exists(),
-        "{} is missing: run `cargo test --workspace`, which builds it",
-        binary.display()
-    );
-    Command::new(binary)
+    Command::new(env!("CARGO_BIN_EXE_vaso"))
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The folder of outside data; without it the test is skipped, but not in continuous integration.
+fn data() -> Option<PathBuf> {
+    let folder = std::env::var_os("VASO_DATA").map(PathBuf::from);
+    if folder.is_none() {
+        assert!(std::env::var_os("CI").is_none(), "VASO_DATA is not set, but CI is");
+        println!("skipped: VASO_DATA is not set");
+    }
+    folder
 }
 
 fn json(command: &mut Command) -> Value {
@@ -162,8 +166,7 @@ fn wrong_input_ends_with_two_and_writes_nothing() {
 fn an_interrupted_run_says_so_and_leaves_a_checkpoint() {
     let folder = tempfile::tempdir().expect("a temporary folder can be had");
     pipe(folder.path());
-    let binary = vaso().get_program().to_owned();
-    let mut child = std::process::Command::new(binary)
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_vaso"))
         .arg("run")
         .arg(folder.path())
         .args(["--quiet", "--set", "particles.spacing=0.8 mm", "--set", "run.end_time=100 s"])
