@@ -21,7 +21,7 @@ check:
 
 # Flows against formulas and published numbers, with the figures printed.
 validate:
-    cargo test -p vaso-tests --test 'validation*' -- --nocapture
+    cargo test -p vaso-tests --test 'validation*' --test carotid -- --nocapture
 
 # The same at the finest spacings; a quarter of an hour on two cores, the carotid with VASO_DATA set.
 validate-long:
