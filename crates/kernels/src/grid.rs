@@ -51,9 +51,12 @@ impl CellGrid {
         4 * (self.start.capacity() + self.key.capacity() + self.cursor.capacity())
     }
 
-    fn coordinates(&self, x: DVec3) -> [usize; 3] {
-        let q = ((x - self.origin) / self.cell).floor().to_array();
-        std::array::from_fn(|k| (q[k].max(0.0) as usize).min(self.n_cells[k] - 1))
+    /// Place of the cell of `x` along each axis.
+    #[inline(always)]
+    pub(crate) fn coordinates(&self, x: DVec3) -> [usize; 3] {
+        let q = ((x - self.origin) / self.cell).to_array();
+        // `as` cuts off towards zero and takes what lies below to zero.
+        std::array::from_fn(|k| (q[k] as usize).min(self.n_cells[k] - 1))
     }
 
     fn index(&self, x: DVec3) -> u32 {
@@ -91,7 +94,12 @@ impl CellGrid {
     /// Runs of sorted particles in the 27 cells around `x`; empty ones are left out.
     #[inline(always)]
     pub fn runs(&self, x: DVec3) -> Runs {
-        let [i, j, k] = self.coordinates(x);
+        self.runs_around(self.coordinates(x))
+    }
+
+    /// Runs around a cell given by its place along each axis.
+    #[inline(always)]
+    pub(crate) fn runs_around(&self, [i, j, k]: [usize; 3]) -> Runs {
         let [nx, ny, nz] = self.n_cells;
         let (i0, i1) = (i.saturating_sub(1), (i + 1).min(nx - 1));
         let (j0, j1) = (j.saturating_sub(1), (j + 1).min(ny - 1));

@@ -34,7 +34,9 @@ impl Isa {
         let mut found = Vec::new();
         #[cfg(target_arch = "x86_64")]
         {
-            let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+            // Bit counting is for the search; every processor with AVX2 has it.
+            let bits = is_x86_feature_detected!("bmi1") && is_x86_feature_detected!("popcnt");
+            let avx2 = bits && is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
             let avx512 = is_x86_feature_detected!("avx512f")
                 && is_x86_feature_detected!("avx512bw")
                 && is_x86_feature_detected!("avx512dq")
@@ -83,13 +85,13 @@ pub(crate) fn dispatch<R: Real, W: LaneWork<R>>(isa: Isa, work: W) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,fma")]
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl,avx2,fma,bmi1,popcnt")]
 unsafe fn run_avx512<R: Real, W: LaneWork<R>>(work: W) {
     work.run::<R::Wide, crate::lanes::avx512::Search>();
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,bmi1,popcnt")]
 unsafe fn run_avx2<R: Real, W: LaneWork<R>>(work: W) {
     work.run::<R::Medium, crate::lanes::avx2::Search>();
 }

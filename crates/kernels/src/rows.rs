@@ -184,13 +184,24 @@ impl<R: Real> LaneWork<R> for Search<'_> {
         start.clear();
         at.clear();
         *n_pairs = 0;
+        // Neighbours in the order share a cell, and with it the runs to search.
+        let mut cell = [usize::MAX; 3];
+        let mut runs = self.grid.runs_around([0; 3]);
+        let mut candidates = 0;
         for i in self.first..self.last {
             start.push(at.len() as u32);
             let own = self.set.get(i);
-            for &(begin, end) in self.grid.runs(self.position[i]).as_slice() {
+            let here = self.grid.coordinates(self.position[i]);
+            if here != cell {
+                cell = here;
+                runs = self.grid.runs_around(here);
+                candidates = runs.as_slice().iter().map(|&(begin, end)| end - begin).sum();
+            }
+            // Room for all candidates, and for one store of a full vector behind them.
+            at.reserve(candidates + 2 * PAD);
+            let (out, mut len) = (at.as_mut_ptr(), at.len());
+            for &(begin, end) in runs.as_slice() {
                 debug_assert!(end <= self.other.n);
-                // Room for the whole run, and for one store of a full vector behind it.
-                at.reserve(end - begin + 2 * PAD);
                 let mut j = begin;
                 while j < end {
                     let tail = (end - j).min(S::N);
@@ -205,13 +216,12 @@ impl<R: Real> LaneWork<R> for Search<'_> {
                         mask &= !(1 << (i - j));
                     }
                     // SAFETY: the reserve above leaves room for what is found and 16 entries more.
-                    unsafe {
-                        let n = S::compress(mask, j as u32, at.as_mut_ptr().add(at.len()));
-                        at.set_len(at.len() + n);
-                    }
+                    len += unsafe { S::compress(mask, j as u32, out.add(len)) };
                     j += S::N;
                 }
             }
+            // SAFETY: so many entries have been written, within the reserve.
+            unsafe { at.set_len(len) };
             let row = at.len() - start[i - self.first] as usize;
             *n_pairs += row;
             at.resize(at.len() + row.next_multiple_of(PAD) - row, null);
