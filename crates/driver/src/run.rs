@@ -80,13 +80,10 @@ fn run_precision<R: Real>(
     let ended = advance(&mut flow, &mut results, case, plan, stop, &mut progress);
     progress.finish();
     let mut summary = results.summary(&mut flow, case, plan, n_wall, started.elapsed().as_secs_f64());
-    let ended = match ended {
-        Ok(()) => results.write_frame(&flow, case).and_then(|()| {
-            talk.say(&print::ledger(&flow.ledger, flow.particle_substeps));
-            Ok(())
-        }),
-        Err(error) => Err(error),
-    };
+    let ended = ended.and_then(|()| results.write_frame(&flow, case));
+    if ended.is_ok() {
+        talk.say(&print::ledger(&flow.ledger, flow.particle_substeps));
+    }
     if let Err(error) = &ended {
         summary.status = match error {
             DriverError::Interrupted { .. } => Status::Interrupted,

@@ -14,7 +14,7 @@ enum Level {
 
 /// An instruction set this processor is known to have.
 ///
-/// It can only be made by asking the processor, so holding one is the proof [`dispatch`] needs.
+/// It can only be made by asking the processor, so holding one is the proof that its instructions may be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Isa(Level);
 

@@ -82,7 +82,7 @@ impl Real for f64 {
 
 /// A vector of `N` numbers of one type.
 ///
-/// Values of these types exist only inside [`crate::isa::dispatch`], which has checked that the
+/// Values of these types exist only inside `crate::isa::dispatch`, which has checked that the
 /// processor has the instructions; that is what makes the arithmetic below safe to call.
 pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// Element type.
