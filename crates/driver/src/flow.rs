@@ -58,7 +58,7 @@ pub enum Diverged {
 /// What the guards saw so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Watch {
-    /// Largest density deviation after the ramp, relative.
+    /// Largest density deviation, the start included, relative.
     pub max_density_error: f64,
     /// Largest speed over sound speed.
     pub max_mach: f64,

@@ -49,6 +49,13 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         n.viscosity * 1e3
     );
     let _ = writeln!(out, "         vessel  wall  {:>9}   rigid, four layers", p.particles.wall);
+    let reach = n.smoothing_length / n.spacing * 2.0;
+    let _ = writeln!(
+        out,
+        "links    blood←blood about {:.0} a particle · blood←vessel and vessel←blood within {reach:.1} spacings; found anew \
+         each advective step",
+        4.0 / 3.0 * std::f64::consts::PI * reach.powi(3)
+    );
     for o in &plan.openings {
         let _ = writeln!(
             out,

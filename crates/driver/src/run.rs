@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use vaso_fluid::Real;
-use vaso_io::{OutputDir, SeriesWriter, Status, Summary};
+use vaso_io::{IoError, OutputDir, SeriesWriter, Status, Summary};
 use vaso_scene::Precision;
 
 /// How a command talks to the person.
@@ -43,6 +43,10 @@ pub fn run(
     stop: &AtomicBool,
     talk: &Talk,
 ) -> Result<Summary, DriverError> {
+    // Asked again when the folder is taken; here it saves making particles for nothing.
+    if !force && Summary::read(&out.join("summary.json")).is_ok_and(|s| s.status == Status::Completed) {
+        return Err(IoError::Finished { path: out.to_owned() }.into());
+    }
     talk.say(&print::audit(&case.vessel, &case.scene.geometry.surface));
     talk.say(&print::plan(case, plan));
     let started = Instant::now();

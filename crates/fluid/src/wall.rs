@@ -7,7 +7,6 @@ use vaso_particles::WallView;
 /// Wall particles within reach of the fluid.
 pub struct WallSide<R> {
     position: Vec<DVec3>,
-    volume: Vec<f64>,
     grid: CellGrid,
     set: SearchSet,
     /// Velocity and depth, for the viscous law.
@@ -55,10 +54,8 @@ impl<R: Real> WallSide<R> {
         };
         let kinematic = pack(&|a| view.depth[a]);
         let dynamic = pack(&|_| 0.0);
-        let volume = source.iter().map(|&a| view.volume[a]).collect();
         Self {
             position,
-            volume,
             grid,
             set,
             kinematic,
@@ -88,11 +85,6 @@ impl<R: Real> WallSide<R> {
     /// Whether there is no wall.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
-    }
-
-    /// Volumes \[m^3\], in cell order.
-    pub fn volume(&self) -> &[f64] {
-        &self.volume
     }
 
     /// Bytes held.
