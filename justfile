@@ -31,6 +31,10 @@ validate-long:
 bench:
     cargo bench -p vaso-benches
 
+# The figures of accuracy and speed, measured anew; a quarter of an hour on two cores.
+figures:
+    cargo run --release -p vaso-tests --example figures > docs/figures.md
+
 # The reference of case.toml made from its schema, and the documentation of the crates.
 docs:
     cargo run -p vaso-scene --example case_reference > docs/case-reference.md
