@@ -64,6 +64,15 @@ pub struct Port {
     flow_factor: f64,
 }
 
+/// What the pressure of the fluid is relative to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reference {
+    /// The same at all times \[Pa\].
+    Fixed(f64),
+    /// The pressure imposed at an opening.
+    Opening(usize),
+}
+
 /// All openings of a run.
 #[derive(Clone, Debug)]
 pub struct Openings {
@@ -71,7 +80,7 @@ pub struct Openings {
     numbers: Numbers,
     spacing: f64,
     next_id: u64,
-    reference: Option<usize>,
+    reference: Reference,
     zones: Vec<CapZone>,
     /// Unit-mean profile value at each zone entry.
     shape: Vec<f64>,
@@ -80,9 +89,9 @@ pub struct Openings {
 impl Openings {
     /// Openings with their conditions, for a fluid of given numbers.
     ///
-    /// With `take_out_pressure` the pressure of the first pressure opening becomes the reference
-    /// pressure: it does no work on a rigid lumen, so the equation of state need not carry it.
-    pub fn new(ports: Vec<(Opening, Condition)>, numbers: &Numbers, take_out_pressure: bool) -> Self {
+    /// Without a fixed `reference_pressure` \[Pa\] that of the first pressure opening is followed: it
+    /// does no work on a rigid lumen, so the equation of state need not carry it.
+    pub fn new(ports: Vec<(Opening, Condition)>, numbers: &Numbers, reference_pressure: Option<f64>) -> Self {
         let ports: Vec<Port> = ports
             .into_iter()
             .map(|(opening, condition)| Port {
@@ -92,10 +101,10 @@ impl Openings {
                 flow_factor: 1.0,
             })
             .collect();
-        let reference = if take_out_pressure {
-            ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }))
-        } else {
-            None
+        let outlet = || ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }));
+        let reference = match reference_pressure {
+            Some(pressure) => Reference::Fixed(pressure),
+            None => outlet().map_or(Reference::Fixed(0.0), Reference::Opening),
         };
         Self {
             ports,
@@ -113,11 +122,6 @@ impl Openings {
         &self.ports
     }
 
-    /// Number of the opening whose pressure is the reference pressure.
-    pub fn reference(&self) -> Option<usize> {
-        self.reference
-    }
-
     /// Identity the next new particle will get.
     pub fn next_id(&self) -> u64 {
         self.next_id
@@ -130,7 +134,10 @@ impl Openings {
 
     /// Reference pressure at `t` \[s\], which the fluid's pressure is relative to \[Pa\].
     pub fn reference_pressure(&self, t: f64) -> f64 {
-        self.reference.map_or(0.0, |k| self.pressure_value(k, t).unwrap_or(0.0))
+        match self.reference {
+            Reference::Fixed(pressure) => pressure,
+            Reference::Opening(k) => self.pressure_value(k, t).unwrap_or(0.0),
+        }
     }
 
     /// Pressure imposed at opening `k` at `t` \[s\], if it imposes one \[Pa\].

@@ -32,13 +32,15 @@ impl Flow {
     /// Estimates the flow through `vessel`.
     ///
     /// Outlets are taken to share the inflow by area with a parabolic peak of twice the mean; the
-    /// narrowest section before the first outlet carries all of it.
+    /// narrowest section before the first outlet carries all of it. A fixed `reference_pressure` \[Pa\]
+    /// widens the range the equation of state must carry.
     pub fn new(
         vessel: &Vessel,
         openings: &[PlannedOpening],
         density: f64,
         viscosity: f64,
         ramp: f64,
+        reference_pressure: Option<f64>,
     ) -> Self {
         let mut inflow = 0.0;
         let mut top_speed: f64 = 0.0;
@@ -65,6 +67,9 @@ impl Flow {
                     (lowest, highest) = (lowest.min(low), highest.max(high));
                 }
             }
+        }
+        if let Some(p) = reference_pressure {
+            (lowest, highest) = (lowest.min(p), highest.max(p));
         }
         let imposed = if highest > lowest { highest - lowest } else { 0.0 };
         let smallest_radius = openings.iter().map(|o| o.opening.radius).fold(f64::INFINITY, f64::min);
@@ -116,12 +121,14 @@ impl Flow {
 
 /// Peak over mean of a developed profile.
 const PARABOLIC: f64 = 2.0;
-/// Time a fluid particle takes a core for one acoustic step, all in \[s\]: measured, see `docs/speed.md`.
-const SUBSTEP_MIXED: f64 = 0.45e-6;
-const SUBSTEP_DOUBLE: f64 = 0.85e-6;
+/// Time a fluid particle takes a core for one acoustic step, all in \[s\]: measured, see `docs/figures.md`.
+const SUBSTEP_MIXED: f64 = 0.55e-6;
+const SUBSTEP_DOUBLE: f64 = 0.78e-6;
+/// Time a particle of any body takes a core to be made \[s\].
+const GENERATION: f64 = 0.2e-3;
 /// Bytes a fluid particle takes, rows included.
-const BYTES_MIXED: f64 = 1500.0;
-const BYTES_DOUBLE: f64 = 2100.0;
+const BYTES_MIXED: f64 = 2000.0;
+const BYTES_DOUBLE: f64 = 2800.0;
 /// Bytes a wall particle takes.
 const BYTES_WALL: f64 = 400.0;
 
@@ -145,6 +152,6 @@ pub fn cost(case: &Case, numbers: &Numbers, precision: Precision, end_time: f64)
     Predicted {
         particles: ParticleCounts { fluid: fluid.round() as u64, wall: wall.round() as u64, shell: 0 },
         memory_bytes: (fluid * bytes + wall * BYTES_WALL) as u64,
-        wall_clock_s: fluid * (end_time / step) * substep / threads,
+        wall_clock_s: (fluid * (end_time / step) * substep + (fluid + wall) * GENERATION) / threads,
     }
 }

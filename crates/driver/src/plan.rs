@@ -30,8 +30,8 @@ pub struct Plan {
     pub sound_speed_reason: String,
     /// Openings with their conditions, largest first.
     pub openings: Vec<PlannedOpening>,
-    /// Whether the reference pressure follows an outlet instead of staying in the equation of state.
-    pub take_out_pressure: bool,
+    /// Pressure the equation of state is relative to \[Pa\]; `None` follows the first pressure outlet.
+    pub reference_pressure: Option<f64>,
     /// Arithmetic of the pair loops.
     pub precision: Precision,
     /// Instruction set of the pair loops.
@@ -68,7 +68,14 @@ impl Plan {
         let openings = planned_openings(case, ramp_default)?;
         let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
 
-        let flow = estimate::Flow::new(&case.vessel, &openings, density, viscosity, ramp);
+        let flow = estimate::Flow::new(
+            &case.vessel,
+            &openings,
+            density,
+            viscosity,
+            ramp,
+            scene.numerics.reference_pressure,
+        );
         let by_speed = scene.numerics.sound_speed_factor * flow.top_speed;
         let by_pressure = (flow.pressure_range / (DENSITY_CHANGE * density)).sqrt();
         let (sound_speed, sound_speed_reason) = match scene.numerics.sound_speed {
@@ -122,7 +129,7 @@ impl Plan {
         Ok(Self {
             numbers,
             sound_speed_reason,
-            take_out_pressure: scene.numerics.reference_pressure.is_none(),
+            reference_pressure: scene.numerics.reference_pressure,
             precision,
             isa,
             ramp,

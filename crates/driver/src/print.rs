@@ -77,11 +77,10 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     let _ = writeln!(
         out,
         "pressure {}",
-        if plan.take_out_pressure {
-            "the first pressure outlet is the reference: its uniform part stays out of the equation of state"
-        } else {
-            "reference pressure as given in the case"
-        }
+        plan.reference_pressure.map_or_else(
+            || "the first pressure outlet is the reference: its uniform part stays out of the equation of state".to_owned(),
+            |p| format!("relative to {p} Pa, as given in the case"),
+        )
     );
     let _ = writeln!(
         out,

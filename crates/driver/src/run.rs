@@ -97,8 +97,8 @@ fn run_precision<R: Real>(
     }
     // After a full disk the summary may not find room either; the first error is the one to tell.
     let written = summary.write(&out.file("summary.json")).map_err(DriverError::from);
-    ended.and(written)?;
-    vaso_report::write_report(out.path())?;
+    let reported = vaso_report::write_report(out.path()).map_err(DriverError::from);
+    ended.and(written).and(reported)?;
     Ok(summary)
 }
 

@@ -188,6 +188,6 @@ pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> 
     let body =
         Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
     let ports = plan.openings.iter().map(|o| (o.opening.clone(), o.condition.clone())).collect();
-    let openings = Openings::new(ports, &plan.numbers, plan.take_out_pressure);
+    let openings = Openings::new(ports, &plan.numbers, plan.reference_pressure);
     Flow::new(body, openings, case.scene.numerics.allow_mach)
 }

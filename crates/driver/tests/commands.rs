@@ -183,7 +183,7 @@ fn an_interrupted_run_says_so_and_leaves_a_checkpoint() {
     let kill = std::process::Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
     assert!(kill.is_ok_and(|s| s.success()));
     assert_eq!(child.wait().expect("ends").code(), Some(130));
-    assert!(out.join("checkpoint.h5").exists());
+    assert!(out.join("checkpoint.h5").exists() && out.join("report.html").exists());
     let summary: Value =
         serde_json::from_slice(&std::fs::read(out.join("summary.json")).expect("summary")).expect("JSON");
     assert_eq!(summary["status"], "interrupted");
