@@ -2,7 +2,6 @@
 
 use super::{FIELDS, Lanes, SearchLanes};
 use core::arch::x86_64::*;
-use std::ops::{Add, Mul, Sub};
 
 /// Sixteen `f32`.
 #[derive(Clone, Copy)]
@@ -17,31 +16,6 @@ pub struct F64x8(__m512d);
 // SAFETY of every block in this file: values of these types are made only inside a function that
 // enables the instructions after `Isa` has found them (see `crate::isa`); pointers are vouched for
 // by the callers of the `unsafe` methods.
-macro_rules! arithmetic {
-    ($name:ident, $add:ident, $sub:ident, $mul:ident) => {
-        impl Add for $name {
-            type Output = Self;
-            #[inline(always)]
-            fn add(self, o: Self) -> Self {
-                unsafe { Self($add(self.0, o.0)) }
-            }
-        }
-        impl Sub for $name {
-            type Output = Self;
-            #[inline(always)]
-            fn sub(self, o: Self) -> Self {
-                unsafe { Self($sub(self.0, o.0)) }
-            }
-        }
-        impl Mul for $name {
-            type Output = Self;
-            #[inline(always)]
-            fn mul(self, o: Self) -> Self {
-                unsafe { Self($mul(self.0, o.0)) }
-            }
-        }
-    };
-}
 arithmetic!(F32x16, _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps);
 arithmetic!(F64x8, _mm512_add_pd, _mm512_sub_pd, _mm512_mul_pd);
 

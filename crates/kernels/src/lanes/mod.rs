@@ -3,6 +3,36 @@
 //! Physics is written once over [`Lanes`]; which implementation runs is chosen at run time by
 //! [`crate::Isa`]. The one-lane implementations are the reference the others are tested against.
 
+/// Sum, difference and product of a vector type by three instructions.
+///
+/// Its `unsafe` is sound for the reason given in the files that use it: values of these types exist
+/// only where the instructions do.
+#[cfg(target_arch = "x86_64")]
+macro_rules! arithmetic {
+    ($name:ident, $add:ident, $sub:ident, $mul:ident) => {
+        impl std::ops::Add for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, o: Self) -> Self {
+                unsafe { Self($add(self.0, o.0)) }
+            }
+        }
+        impl std::ops::Sub for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, o: Self) -> Self {
+                unsafe { Self($sub(self.0, o.0)) }
+            }
+        }
+        impl std::ops::Mul for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, o: Self) -> Self {
+                unsafe { Self($mul(self.0, o.0)) }
+            }
+        }
+    };
+}
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod avx2;
 #[cfg(target_arch = "x86_64")]
