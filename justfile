@@ -33,7 +33,7 @@ bench:
 
 # The figures of accuracy and speed, measured anew; a quarter of an hour on two cores.
 figures:
-    cargo run --release -p vaso-tests --example figures > docs/figures.md
+    cargo run --release -p vaso-tests --example figures -- 10 16 20 > docs/figures.md
 
 # The reference of case.toml made from its schema, and the documentation of the crates.
 docs:

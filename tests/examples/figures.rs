@@ -1,7 +1,8 @@
 //! Writes `docs/figures.md`: the pipe against its formula, and the speed on this machine.
 //!
 //! `cargo run --release -p vaso-tests --example figures > docs/figures.md`; about a quarter of an hour on
-//! two cores. With numbers as arguments only those ladders of particles across the pipe are run.
+//! two cores. With numbers as arguments only those particles across the pipe are run:
+//! `docs/figures.md` holds 10, 16 and 20, `docs/figures-30.md` the finest.
 
 use std::time::Instant;
 use vaso_driver::Stage;
