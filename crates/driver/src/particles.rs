@@ -29,14 +29,14 @@ pub fn particles(case: &Case, out: &Path, talk: &Talk) -> Result<ParticlesReport
             BodyParticles {
                 kind: BodyKind::Fluid,
                 position: &bodies.fluid.position,
-                volume: bodies.fluid.volume,
+                volume: &bodies.fluid.volume,
                 normal: &bodies.fluid.normal,
                 depth: &bodies.fluid.depth,
             },
             BodyParticles {
                 kind: BodyKind::Wall,
                 position: &bodies.wall.position,
-                volume: bodies.wall.volume,
+                volume: &bodies.wall.volume,
                 normal: &bodies.wall.normal,
                 depth: &bodies.wall.depth,
             },

@@ -42,7 +42,7 @@ pub fn generation_settings(scene: &Scene) -> Settings {
 }
 
 /// Layout version of cached particles; to be raised whenever generation changes its results.
-const CACHE_VERSION: u32 = 1;
+const CACHE_VERSION: u32 = 2;
 const CACHE_KIND: &str = "particles";
 
 impl Bodies {
@@ -107,12 +107,12 @@ fn pack(fluid: &Body, wall: &Body) -> Archive {
         archive.put_vectors(&format!("{name}.position"), &body.position);
         archive.put_vectors(&format!("{name}.normal"), &body.normal);
         archive.put_floats(&format!("{name}.depth"), &body.depth);
+        archive.put_floats(&format!("{name}.volume"), &body.volume);
         let q = &body.quality;
         let nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
         archive.put_floats(
             &format!("{name}.numbers"),
             &[
-                body.volume,
                 q.volume_error,
                 q.nearest_neighbor_min,
                 q.nearest_neighbor_cv,
@@ -132,14 +132,14 @@ fn pack(fluid: &Body, wall: &Body) -> Archive {
 
 fn unpack(archive: &Archive) -> Option<(Body, Body)> {
     let body = |name: &str| {
-        let [volume, volume_error, nn_min, nn_cv, sum_mean, sum_std, residual, volume_cv] =
-            *archive.floats(&format!("{name}.numbers"))?.first_chunk::<8>()?;
+        let [volume_error, nn_min, nn_cv, sum_mean, sum_std, residual, volume_cv] =
+            *archive.floats(&format!("{name}.numbers"))?.first_chunk::<7>()?;
         let [count, outside, iterations] =
             *archive.integers(&format!("{name}.counts"))?.first_chunk::<3>()?;
         let some = |x: f64| (!x.is_nan()).then_some(x);
         Some(Body {
             position: archive.vectors(&format!("{name}.position"))?,
-            volume,
+            volume: archive.floats(&format!("{name}.volume"))?.to_vec(),
             normal: archive.vectors(&format!("{name}.normal"))?,
             depth: archive.floats(&format!("{name}.depth"))?.to_vec(),
             quality: Quality {
@@ -181,10 +181,9 @@ pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> 
     let distance =
         DistanceGrid::build(&SignedDistance::wall(&case.vessel), (low, high), spacing, BAND * spacing);
     let velocity = vec![DVec3::ZERO; wall.position.len()];
-    let volume = vec![wall.volume; wall.position.len()];
     let view =
-        WallView { position: &wall.position, velocity: &velocity, depth: &wall.depth, volume: &volume };
-    let state = FluidState::at_rest(fluid.position, fluid.volume, plan.numbers.rest_density);
+        WallView { position: &wall.position, velocity: &velocity, depth: &wall.depth, volume: &wall.volume };
+    let state = FluidState::at_rest(fluid.position, &fluid.volume, plan.numbers.rest_density);
     let body =
         Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
     let ports = plan.openings.iter().map(|o| (o.opening.clone(), o.condition.clone())).collect();

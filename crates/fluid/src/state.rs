@@ -26,15 +26,15 @@ impl FluidState {
     /// Label of a particle that no buffer owns.
     pub const NO_OPENING: i32 = -1;
 
-    /// Fluid at rest and at rest density, each particle of `volume` \[m^3\].
-    pub fn at_rest(position: Vec<DVec3>, volume: f64, rest_density: f64) -> Self {
+    /// Fluid at rest and at rest density, of the volumes \[m^3\] given.
+    pub fn at_rest(position: Vec<DVec3>, volume: &[f64], rest_density: f64) -> Self {
         let n = position.len();
         Self {
             position: Column::with("position", "m", position),
             velocity: Column::with("velocity", "m/s", vec![DVec3::ZERO; n]),
             density_change: Column::with("density_change", "kg/m^3", vec![0.0; n]),
             density_rate: Column::with("density_rate", "kg/(m^3 s)", vec![0.0; n]),
-            mass: Column::with("mass", "kg", vec![rest_density * volume; n]),
+            mass: Column::with("mass", "kg", volume.iter().map(|v| rest_density * v).collect()),
             id: Column::with("id", "", (0..n as u64).collect()),
             opening: Column::with("opening", "", vec![Self::NO_OPENING; n]),
         }

@@ -58,8 +58,9 @@ impl Settings {
 pub struct Body {
     /// Positions \[m\], neighbours near each other in memory.
     pub position: Vec<DVec3>,
-    /// Volume of each particle \[m^3\], the same for all.
-    pub volume: f64,
+    /// Volume of each particle \[m^3\]: the same for all of a relaxed body, that of its cell in a
+    /// multiblock one.
+    pub volume: Vec<f64>,
     /// Of a wall: unit normal away from the lumen; empty for a fluid.
     pub normal: Vec<DVec3>,
     /// Of a wall: distance outside the lumen surface \[m\], beyond a cap that from the cap drawn out
@@ -117,6 +118,7 @@ pub fn rigid_wall(
     let kept: Vec<DVec3> = body.position.par_iter().copied().filter(keep).collect();
     body.quality.count = kept.len();
     body.quality.volume_error = kept.len() as f64 * dp.powi(3) / volume - 1.0;
+    body.volume.truncate(kept.len());
     body.position = kept;
     (body.depth, body.normal) = body.position.par_iter().map(|x| region.depth(*x)).unzip();
     Ok(body)
@@ -139,5 +141,6 @@ fn fill<R: Region>(
     let iterations = relaxation.run(&mut position, steps, seed, progress);
     let mut quality = Quality::measure(&relaxation, &mut position, region_volume);
     quality.iterations = iterations;
+    let volume = vec![volume; position.len()];
     Ok(Body { position, volume, normal: Vec::new(), depth: Vec::new(), quality })
 }

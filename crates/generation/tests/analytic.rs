@@ -38,7 +38,7 @@ fn fluid_fills_the_pipe_evenly() {
     let body = fluid(&vessel, &Settings::new(SPACING), &mut quiet).expect("the pipe is wide enough");
     let polygon = SEGMENTS as f64 / (2.0 * PI) * (2.0 * PI / SEGMENTS as f64).sin();
     let exact = PI * RADIUS * RADIUS * LENGTH * polygon;
-    let filled = body.volume * body.position.len() as f64;
+    let filled = body.volume.iter().sum::<f64>();
     assert!((filled / exact - 1.0).abs() < 1e-9, "{filled} instead of {exact}");
 
     let q = &body.quality;
@@ -68,9 +68,9 @@ fn wall_surrounds_the_pipe_and_leaves_its_ends_open() {
     let body = rigid_wall(&pipe(), &settings, &mut quiet).expect("the pipe is wide enough");
     let (thickness, collar) = (4.0 * SPACING, 2.0 * settings.smoothing * SPACING);
     let ring = PI * ((RADIUS + thickness).powi(2) - RADIUS.powi(2)) * (LENGTH + 2.0 * collar);
-    let filled = body.volume * body.position.len() as f64;
+    let filled = body.volume.iter().sum::<f64>();
     assert!((filled / ring - 1.0).abs() < 2e-3, "{} of the ring", filled / ring);
-    assert!((body.volume / SPACING.powi(3) - 1.0).abs() < 1e-3);
+    assert!((body.volume[0] / SPACING.powi(3) - 1.0).abs() < 1e-3);
     assert_eq!(body.quality.outside, 0);
     assert!(body.quality.nearest_neighbor_min > 0.65, "{:?}", body.quality);
     assert!(body.quality.nearest_neighbor_cv < 0.06, "{:?}", body.quality);
@@ -96,7 +96,7 @@ fn fluid_and_wall_together_complete_the_kernel() {
     let wall = rigid_wall(&vessel, &settings, &mut quiet).expect("the pipe is wide enough");
     let kernel = vaso_kernels::Wendland::new(settings.smoothing * SPACING);
     let sum = |body: &Body, x: DVec3| {
-        body.volume * body.position.iter().map(|y| kernel.value(y.distance(x))).sum::<f64>()
+        body.volume[0] * body.position.iter().map(|y| kernel.value(y.distance(x))).sum::<f64>()
     };
     let near_wall = blood.position.iter().filter(|x| {
         let (r, z) = cylindrical(**x);

@@ -47,7 +47,7 @@ fn carotid_bifurcation() {
     };
     for spacing in [0.6e-3, 0.4e-3] {
         let (blood, _) = hold(&vessel, spacing);
-        let filled = blood.volume * blood.position.len() as f64;
+        let filled = blood.volume.iter().sum::<f64>();
         assert!((filled / 1866.83e-9 - 1.0).abs() < 1e-5, "published volume 1866.83 mm^3, filled {filled}");
     }
 }

@@ -39,8 +39,8 @@ pub struct BodyParticles<'a> {
     pub kind: BodyKind,
     /// Positions \[m\].
     pub position: &'a [DVec3],
-    /// Volume of each particle of the body \[m^3\].
-    pub volume: f64,
+    /// Volume of each particle \[m^3\].
+    pub volume: &'a [f64],
     /// Unit normals out of the lumen; empty for a body without (written as zero vectors).
     pub normal: &'a [DVec3],
     /// Distances outside the lumen surface \[m\]; empty for a body without (written as zeros).
@@ -62,8 +62,13 @@ pub fn write_particles(path: &Path, bodies: &[BodyParticles<'_>]) -> Result<(), 
     let mut ids = Vec::with_capacity(count);
     for body in bodies {
         let n = body.position.len();
-        for (name, length) in [(schema::NORMAL, body.normal.len()), (schema::DEPTH, body.depth.len())] {
-            if length != 0 && length != n {
+        let lengths = [
+            (schema::NORMAL, body.normal.len(), true),
+            (schema::DEPTH, body.depth.len(), true),
+            (schema::VOLUME, body.volume.len(), false),
+        ];
+        for (name, length, optional) in lengths {
+            if length != n && !(optional && length == 0) {
                 let what = format!("field `{name}` has {length} values for {n} particles");
                 return Err(IoError::Mismatch { path: path.to_owned(), what });
             }
@@ -74,7 +79,7 @@ pub fn write_particles(path: &Path, bodies: &[BodyParticles<'_>]) -> Result<(), 
         depth.extend_from_slice(body.depth);
         depth.resize(position.len(), 0.0);
         kind.resize(position.len(), body.kind.number());
-        volume.resize(position.len(), body.volume);
+        volume.extend_from_slice(body.volume);
         ids.extend(0..n as u64);
     }
     SeriesWriter::create(path).append(&Frame {
@@ -156,12 +161,17 @@ mod tests {
         let path = folder.path().join("particles.vtkhdf");
         let fluid = [DVec3::ZERO, DVec3::X];
         let wall = [DVec3::Y];
-        let body =
-            BodyParticles { kind: BodyKind::Fluid, position: &fluid, volume: 0.125, normal: &[], depth: &[] };
+        let body = BodyParticles {
+            kind: BodyKind::Fluid,
+            position: &fluid,
+            volume: &[0.125; 2],
+            normal: &[],
+            depth: &[],
+        };
         let outer = BodyParticles {
             kind: BodyKind::Wall,
             position: &wall,
-            volume: 0.25,
+            volume: &[0.25],
             normal: &[DVec3::Y],
             depth: &[0.5],
         };
