@@ -27,11 +27,11 @@ pub struct Nearest {
 ///
 /// Queries take `&self` and may run on any number of threads.
 pub struct SignedDistance {
-    corners: Vec<[DVec3; 3]>,
+    pub(crate) corners: Vec<[DVec3; 3]>,
     vertices: Vec<[u32; 3]>,
     ids: Vec<u32>,
     normals: PseudoNormals,
-    tree: Bvh,
+    pub(crate) tree: Bvh,
     /// Decides the side where normals cannot: surfaces that are not closed or not orientable.
     winding: Option<WindingTree>,
     is_continuous: bool,
@@ -60,6 +60,11 @@ impl SignedDistance {
     /// every triangle belong to a cap, all distances are infinite.
     pub fn wall(vessel: &Vessel) -> SignedDistance {
         SignedDistance::new(&vessel.surface, |t| vessel.face_opening[t].is_none(), !vessel.audit.orientable)
+    }
+
+    /// Distance to a surface that is closed and points outwards, as one made by a program is.
+    pub fn of(surface: &Surface) -> SignedDistance {
+        SignedDistance { is_continuous: true, ..SignedDistance::new(surface, |_| true, false) }
     }
 
     /// Distance to the triangles `keep` says yes to.

@@ -2,6 +2,7 @@
 
 mod audit;
 mod caps;
+mod centerline;
 mod close;
 mod corner;
 mod distance;
@@ -10,6 +11,7 @@ mod error;
 mod opening;
 mod polygon;
 mod pseudo_normal;
+mod ray;
 mod read;
 mod repair;
 mod section;
@@ -21,6 +23,7 @@ mod winding;
 mod write;
 
 pub use audit::{Audit, EdgeLengths, FlatRegion, Rejection};
+pub use centerline::{Branch, BranchEnd, Centerlines, Curve, Frame, Junction};
 pub use distance::{Nearest, SignedDistance};
 pub use distance_grid::DistanceGrid;
 pub use error::GeometryError;

@@ -88,15 +88,18 @@ impl Vessel {
     }
 }
 
-/// The 26 neighbours in a grid with the length of the step in thousandths.
-fn neighbour_steps() -> Vec<([i64; 3], u64)> {
+/// Parts a grid spacing is counted in, so that lengths are whole numbers.
+pub(crate) const STEP_UNIT: u64 = 1000;
+
+/// The 26 neighbours in a grid with the length of the step in parts of a spacing.
+pub(crate) fn neighbour_steps() -> Vec<([i64; 3], u64)> {
     let mut steps = Vec::new();
     for l in -1..=1_i64 {
         for j in -1..=1_i64 {
             for i in -1..=1_i64 {
                 let squared = i * i + j * j + l * l;
                 if squared > 0 {
-                    steps.push(([i, j, l], (1000.0 * (squared as f64).sqrt()).round() as u64));
+                    steps.push(([i, j, l], (STEP_UNIT as f64 * (squared as f64).sqrt()).round() as u64));
                 }
             }
         }
