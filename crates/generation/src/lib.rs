@@ -5,6 +5,7 @@ mod extended;
 mod faces;
 mod lattice;
 mod lumen;
+pub mod multiblock;
 mod neighbors;
 mod quality;
 mod random;
