@@ -49,6 +49,8 @@ pub(crate) struct Relaxation<'a, R> {
 struct Listed {
     neighbors: Neighbors,
     position: Vec<DVec3>,
+    /// Whether the particle only pushes and stays where it is.
+    fixed: Vec<bool>,
     /// Whether the particle cannot feel a face before the lists are made again.
     deep: Vec<bool>,
 }
@@ -75,14 +77,37 @@ impl<R: Region> Relaxation<'_, R> {
         seed: u64,
         progress: &mut dyn FnMut(usize, f64),
     ) -> usize {
+        self.run_among(position, &[], steps, seed, progress)
+    }
+
+    /// As [`Self::run`], for particles between others that push them but stay where they are.
+    ///
+    /// The fixed ones count with the same volume as the movable ones.
+    pub(crate) fn run_among(
+        &self,
+        movable: &mut Vec<DVec3>,
+        fixed: &[DVec3],
+        steps: usize,
+        seed: u64,
+        progress: &mut dyn FnMut(usize, f64),
+    ) -> usize {
         let dp = self.spacing;
-        position.par_iter_mut().enumerate().for_each(|(i, x)| {
+        movable.par_iter_mut().enumerate().for_each(|(i, x)| {
             *x += JITTER * dp * random::unit_box(seed, i);
             *x = self.bound(*x, |x| self.region.exact_faces(x));
         });
+        let n_movable = movable.len();
+        let is_fixed = |i| i >= n_movable;
+        let mut position = std::mem::take(movable);
+        position.extend_from_slice(fixed);
+        let position = &mut position;
         let skin = SKIN * dp;
-        let neighbors = Neighbors::new(self.region.bounds(), self.kernel.support() + skin);
-        let mut listed = Listed { neighbors, position: Vec::new(), deep: Vec::new() };
+        let mut listed = Listed {
+            neighbors: Neighbors::new(self.region.bounds(), self.kernel.support() + skin),
+            position: Vec::new(),
+            fixed: (0..position.len()).map(is_fixed).collect(),
+            deep: Vec::new(),
+        };
         self.list(&mut listed, position);
         let mut next = position.clone();
         let mut residuals = Vec::with_capacity(steps);
@@ -90,7 +115,7 @@ impl<R: Region> Relaxation<'_, R> {
         for step in 1..=steps {
             let sums = self.step(&listed, position, &mut next, step + POLISH > last);
             std::mem::swap(position, &mut next);
-            let mean = sums.displacement / (position.len() as f64 * dp);
+            let mean = sums.displacement / (n_movable as f64 * dp);
             progress(step, mean);
             residuals.push(sums.residual);
             if step == last {
@@ -103,12 +128,15 @@ impl<R: Region> Relaxation<'_, R> {
                 self.list(&mut listed, position);
             }
         }
+        let moved = position.iter().zip(&listed.fixed).filter(|(_, fixed)| !**fixed);
+        movable.extend(moved.map(|(x, _)| *x));
         last
     }
 
     /// Sorts the particles and makes their neighbour lists.
     fn list(&self, listed: &mut Listed, position: &mut Vec<DVec3>) {
-        listed.neighbors.rebuild(position);
+        let order = listed.neighbors.rebuild(position);
+        listed.fixed = order.iter().map(|&old| listed.fixed[old as usize]).collect();
         listed.position.clone_from(position);
         let depth = self.kernel.support() + SKIN * self.spacing;
         let is_deep = |x: &DVec3| self.region.faces(*x).clearance() > depth;
@@ -125,6 +153,10 @@ impl<R: Region> Relaxation<'_, R> {
                 for (k, row) in chunk.rows().enumerate() {
                     let i = c * CHUNK + k;
                     let x = position[i];
+                    if listed.fixed[i] {
+                        next[k] = x;
+                        continue;
+                    }
                     let (moved, residual) = self.moved(x, row, position, listed.deep[i], exact);
                     next[k] = moved;
                     sums.displacement += moved.distance(x);
@@ -194,4 +226,62 @@ fn stagnant(residuals: &[f64]) -> bool {
     let (steps, share) = PATIENCE;
     let n = residuals.len();
     n > steps && (residuals[n - 1] - residuals[n - 1 - steps]).abs() < share * residuals[n - 1 - steps]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::{Lattice, deepest_sites};
+
+    /// A box of edges 12, 8 and 8 spacings of 1.
+    struct Block;
+
+    const HALF: DVec3 = DVec3::new(6.0, 4.0, 4.0);
+
+    impl Region for Block {
+        fn bounds(&self) -> (DVec3, DVec3) {
+            (-HALF, HALF)
+        }
+        fn level(&self, x: DVec3) -> f64 {
+            (x.abs() - HALF).max_element()
+        }
+        fn exact_level(&self, x: DVec3) -> f64 {
+            self.level(x)
+        }
+        fn faces(&self, x: DVec3) -> Faces {
+            let mut faces = Faces::new();
+            let clearance = HALF - x.abs();
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                faces.push(clearance.dot(axis), axis * x.dot(axis).signum());
+            }
+            faces
+        }
+        fn exact_faces(&self, x: DVec3) -> Faces {
+            self.faces(x)
+        }
+    }
+
+    fn nearest(x: DVec3, others: &[DVec3]) -> f64 {
+        others.iter().map(|y| y.distance(x)).filter(|r| *r > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Half of a relaxed set is put back to the lattice and relaxed among the other half.
+    #[test]
+    fn particles_relaxed_among_fixed_ones_fit_in() {
+        let relaxation = Relaxation { region: &Block, kernel: Wendland::new(1.3), spacing: 1.0, volume: 1.0 };
+        let mut all = deepest_sites(&Block, Lattice::Cubic, 1.0, 768).expect("as many sites as cubes");
+        relaxation.run(&mut all, 100, 0, &mut |_, _| {});
+        let (fixed, mut movable): (Vec<DVec3>, Vec<DVec3>) = all.iter().partition(|x| x.x < 0.0);
+        for (i, x) in movable.iter_mut().enumerate() {
+            *x += 0.4 * random::unit_box(5, i);
+        }
+        let n = movable.len();
+        let crowded = movable.iter().map(|x| nearest(*x, &fixed)).fold(f64::INFINITY, f64::min);
+        relaxation.run_among(&mut movable, &fixed, 100, 1, &mut |_, _| {});
+        assert_eq!(movable.len(), n);
+        let together: Vec<DVec3> = fixed.iter().chain(&movable).copied().collect();
+        let least = movable.iter().map(|x| nearest(*x, &together)).fold(f64::INFINITY, f64::min);
+        assert!(crowded < 0.6 && least > 0.7, "{crowded} before, {least} after");
+        assert!(movable.iter().all(|x| Block.level(*x) < -0.9 * GAP));
+    }
 }
