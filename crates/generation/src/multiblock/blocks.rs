@@ -9,8 +9,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 use vaso_geometry::SignedDistance;
 
-/// Volumes of a cell, in cubes of the spacing, outside which its layer is given up.
-const SOUND: std::ops::Range<f64> = 0.3..2.5;
+/// Volumes of a cell outside which its layer is given up: least, in those the wireframe has on the disc, and
+/// most, in cubes of the spacing.
+const LEAST: f64 = 0.15;
+const MOST: f64 = 2.5;
 /// Middles of wall faces farther from the wall than this, in spacings, are left where they are: they face
 /// something else.
 const BULGE: f64 = 0.3;
@@ -67,7 +69,8 @@ impl Maker<'_> {
                 .flat_map(|(b, on_wall)| self.cells(b, on_wall, k))
                 .collect();
             let cube = self.spacing.powi(3);
-            let is_sound = cells.iter().all(|c| c.least > 0.0 && SOUND.contains(&(c.volume / cube)));
+            let sound = LEAST * layers.frame.smallest * cube..MOST * cube;
+            let is_sound = cells.iter().all(|c| c.least > 0.0 && sound.contains(&c.volume));
             Layer { arc: [layers.arc[k], layers.arc[k + 1]], cells, is_sound }
         };
         let layers = (0..n_layers).into_par_iter().map(layer).collect();

@@ -8,13 +8,22 @@ use vaso_geometry::{Curve, Junction, SignedDistance};
 /// Distances of the line from the carina that are tried, in distances of the parent's centreline from the wall.
 const BACK: [f64; 10] = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.15, 1.3];
 /// Where between the directions of two limbs the half plane between them may lie.
-const BETWEEN: [f64; 11] = [0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75];
+const BETWEEN: [f64; 7] = [0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65];
+/// Directions from the line to the carina that are tried, from straight on (0) to between the daughters (1).
+const ASIDE: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Angle that a daughter should keep from the half plane between the two \[rad\].
+const OPEN: f64 = 0.4;
 /// Rays that measure a half plane.
 const RAYS: usize = 25;
 /// Largest ratio of the half planes' areas: with more the cells of a limb would be too uneven.
 const UNEVEN: f64 = 2.5;
-/// By how much longer than need be a limb takes to become plane.
-const EASE: f64 = 1.4;
+/// By how much longer than need be a limb takes to become plane: than to be clear of the others, and than
+/// its rim is swept.
+const EASE: f64 = 1.25;
+const SWEEP: f64 = 2.2;
+const ROOM: f64 = 1.7;
+/// Least angle between the start of a limb and the half planes beside it \[rad\].
+const NARROW: f64 = 0.3;
 
 /// One limb of a junction.
 pub(super) struct Start {
@@ -72,27 +81,28 @@ pub(super) fn starts(
     wall: &SignedDistance,
 ) -> Result<[Start; 3], String> {
     let clearance = |x: DVec3| wall.query(x).distance.abs();
-    let ahead = |curve: &Curve| {
-        let length = (1.5 * clearance(curve.at(0.3 * curve.length()))).min(curve.length());
-        curve.at(length)
-    };
-    let [parent, first, second] = limbs.map(ahead);
+    let ahead = |curve: &Curve| (1.5 * clearance(curve.at(0.3 * curve.length()))).min(curve.length());
+    let parent = limbs[0].at(ahead(limbs[0]));
     let width = clearance(parent);
-    let [to_first, to_second] = [first, second].map(|p| p - junction.middle);
+    let [to_first, to_second] = [limbs[1], limbs[2]].map(|curve| {
+        let length = ahead(curve);
+        (curve.at(length) - junction.middle).normalize_or_zero() + curve.tangent(length)
+    });
     let axis = to_second.cross(to_first).try_normalize().ok_or("its daughters run in one direction")?;
     // The carina, in the plane of the middle.
     let tip = junction.carina + (junction.middle - junction.carina).dot(axis) * axis;
     let forward =
         (tip - parent).reject_from_normalized(axis).try_normalize().ok_or("its parent is too short")?;
     let plane = [forward, axis.cross(forward)];
-    let joint = best_joint(tip, axis, plane, [first, second], width, wall)?;
+    let joint = best_joint(tip, axis, plane, [to_first, to_second], width, wall)?;
     let angles = joint.half.map(|h| h.angle);
     // By growing angle: second, between the daughters, first, parent.
     let [left_parent, right_parent] = [angles[0], angles[1] + TAU];
     let bounds = [[left_parent, right_parent], [angles[2], angles[0]], [angles[1], angles[2]]];
     let mut starts = Vec::with_capacity(3);
-    for (curve, [low, high]) in limbs.into_iter().zip(bounds) {
-        starts.push(start(&joint, curve, low, high, wall)?);
+    let [p, q, r] = joint.half;
+    for ((curve, bounds), sides) in limbs.into_iter().zip(bounds).zip([[p, q], [r, p], [q, r]]) {
+        starts.push(start(&joint, curve, bounds, sides, wall)?);
     }
     starts.try_into().map_err(|_| String::from("it has not three limbs"))
 }
@@ -107,14 +117,13 @@ fn best_joint(
     wall: &SignedDistance,
 ) -> Result<Joint, String> {
     let reach = 4.0 * width;
-    let mut best: Option<(f64, Joint)> = None;
-    for back in BACK {
-        let center = tip - back * width * plane[0];
-        let joint = Joint { center, axis, plane, half: [Half { angle: 0.0, area: 0.0 }; 3] };
-        let [first, second] = daughters.map(|p| joint.angle(p - center));
-        if first <= second {
-            continue;
-        }
+    let mut best: Option<(f64, f64, Joint)> = None;
+    let flat = Joint { center: tip, axis, plane, half: [Half { angle: 0.0, area: 0.0 }; 3] };
+    let [first, second] = daughters.map(|d| flat.angle(d));
+    for (back, aside) in BACK.iter().flat_map(|b| ASIDE.iter().map(move |a| (*b, *a))) {
+        let between = aside * 0.5 * (first + second);
+        let center = tip - back * width * flat.direction(between);
+        let joint = Joint { center, ..flat };
         let measure = |angle: f64| {
             let area = half_area(wall, center, axis, joint.direction(angle), reach)?;
             Some(Half { angle, area })
@@ -124,16 +133,18 @@ fn best_joint(
             let tried = BETWEEN.iter().filter_map(|b| measure(daughter + b * (parent - daughter)));
             tried.min_by(|a, b| a.area.total_cmp(&b.area))
         };
-        let halves = (neck(first, PI), neck(second, -PI), measure(0.0));
+        let halves = (neck(first, PI), neck(second, -PI), measure(between));
         let (Some(a), Some(b), Some(c)) = halves else { continue };
         let areas = [a.area, b.area, c.area];
         let ratio =
             areas.iter().fold(0.0_f64, |m, x| m.max(*x)) / areas.iter().fold(f64::INFINITY, |m, x| m.min(*x));
-        if best.as_ref().is_none_or(|(least, _)| ratio < *least) {
-            best = Some((ratio, Joint { half: [a, b, c], ..joint }));
+        let narrow = [first - between, between - second].map(|open| (OPEN - open).max(0.0) / OPEN);
+        let price = ratio + 2.0 * (narrow[0] + narrow[1]);
+        if best.as_ref().is_none_or(|(least, ..)| price < *least) {
+            best = Some((price, ratio, Joint { half: [a, b, c], ..joint }));
         }
     }
-    let (ratio, joint) = best.ok_or("the lumen is not closed around it")?;
+    let (_, ratio, joint) = best.ok_or("the lumen is not closed around it")?;
     if ratio > UNEVEN {
         return Err(format!(
             "its limbs are too unlike: the planes between them differ {ratio:.1} times in area"
@@ -142,8 +153,15 @@ fn best_joint(
     Ok(joint)
 }
 
-/// The start of the limb along `curve` in the wedge between two angles about the hinge.
-fn start(joint: &Joint, curve: &Curve, low: f64, high: f64, wall: &SignedDistance) -> Result<Start, String> {
+/// The start of the limb along `curve` in the wedge between two angles about the hinge, `sides` the half planes
+/// there.
+fn start(
+    joint: &Joint,
+    curve: &Curve,
+    [low, high]: [f64; 2],
+    sides: [Half; 2],
+    wall: &SignedDistance,
+) -> Result<Start, String> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let step = curve.length() / 200.0;
     let is_free = |arc: f64| {
@@ -156,7 +174,7 @@ fn start(joint: &Joint, curve: &Curve, low: f64, high: f64, wall: &SignedDistanc
             wall.cast(origin, ray, reach).is_some_and(|r| {
                 let point = origin + r * ray - joint.center;
                 let off = (joint.angle(point) - middle + PI).rem_euclid(TAU) - PI;
-                off.abs() < half - 0.1
+                off.abs() < half - 0.02
             })
         })
     };
@@ -164,13 +182,27 @@ fn start(joint: &Joint, curve: &Curve, low: f64, high: f64, wall: &SignedDistanc
     let free = free.ok_or("a limb ends before its sections are clear of the others")?;
     let clear = joint.center.distance(curve.at(free));
     // Longer than need be, as far as there is limb.
+    let (right, left) = (joint.direction(high), joint.direction(low));
+    let rims = sides.map(|half| (2.0 * half.area / PI).sqrt());
+    let ahead = |arc: f64| {
+        let angle = (joint.angle(curve.at(arc) - joint.center) - middle + PI).rem_euclid(TAU) - PI;
+        joint.direction(middle + 0.0 * angle.clamp(NARROW - half, half - NARROW))
+    };
+    // The half planes turn into the plane of the section and sweep their rims along.
+    let is_long_enough = |arc: f64| {
+        let tangent = ahead(arc);
+        let sweep = right.dot(tangent).abs() * rims[1];
+        let sweep = sweep.max(left.dot(tangent).abs() * rims[0]);
+        joint.center.distance(curve.at(arc))
+            >= (EASE * clear).max(SWEEP * sweep).max(ROOM * rims[0].max(rims[1]))
+    };
     let mut until = free;
-    while joint.center.distance(curve.at(until)) < EASE * clear && until + step < 0.9 * curve.length() {
+    while !is_long_enough(until) && until + step < 0.9 * curve.length() {
         until += step;
     }
     let (a, b) = (joint.center, curve.at(until));
     let span = a.distance(b);
-    let (da, db) = (span * joint.direction(middle), span * curve.tangent(until));
+    let (da, db) = (span * ahead(until), span * curve.tangent(until));
     let hermite = |k: usize| {
         let u = k as f64 / 32.0;
         let (v, w) = (1.0 - u, u * (1.0 - u));
@@ -179,7 +211,6 @@ fn start(joint: &Joint, curve: &Curve, low: f64, high: f64, wall: &SignedDistanc
     let bridge = Curve::new((0..=32).map(hermite));
     let rest = curve.stretch(until, curve.length(), ((curve.length() - until) / step).ceil() as usize);
     let whole = Curve::new(bridge.points().iter().chain(&rest.points()[1..]).copied());
-    let (right, left) = (joint.direction(high), joint.direction(low));
     let hinge = Hinge { axis: joint.axis, right, left, length: bridge.length() };
     Ok(Start { curve: whole, hinge })
 }

@@ -5,7 +5,7 @@ use super::topology::{Divisions, Topology, Wireframe};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Most by which the area of a section may differ from what its cells ask for before they are divided anew.
+/// Most by which the area of a section may differ from that of the first, in ratio, before it is divided anew.
 const BAND: f64 = 0.12;
 /// Wireframes with a number of cells this far off are not looked at, unless there are no others.
 const NEAR: f64 = 0.15;
@@ -81,7 +81,7 @@ impl Library {
             let first = run.area_at((start + 0.5 * spacing * run.area_at(start)).min(total));
             let frame = self.choose(first / face, run.arc_at(start) < even_until);
             let layer = frame.cells as f64 * cell;
-            let fits = |v: f64| (run.area_at(v) / (frame.cells as f64 * face)).ln().abs() < BAND;
+            let fits = |v: f64| (run.area_at(v) / first).ln().abs() < BAND;
             let mut n = 1;
             while start + (n as f64 + 0.5) * layer <= total && fits(start + (n as f64 + 0.5) * layer) {
                 n += 1;

@@ -3,6 +3,7 @@
 use super::section::{Plane, Section};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use vaso_geometry::{Curve, Frame, Opening, SignedDistance};
 
 /// Stations of a limb in a spacing.
@@ -12,7 +13,8 @@ const REACH: f64 = 4.0;
 /// Over how many radii of an opening sections turn into its plane.
 const TURN: f64 = 2.0;
 /// By how much the first and last section lie inside the caps, in radii: the rim itself belongs to both.
-const INSET: f64 = 1e-5;
+const INSET: f64 = 5e-4;
+const BEND: f64 = 2.0;
 
 /// How a limb starts at a junction: in two half planes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,12 +88,12 @@ impl<'a> Route<'a> {
         let x = y.cross(tangent);
         let mut plane = Plane { origin: self.curve.at(arc), y, right: x, left: -x, bend: 0.0, freedom: 1.0 };
         if let Some(hinge) = &self.hinge {
-            let bend = (1.0 - arc / hinge.length).max(0.0);
+            let bend = (1.0 - (arc / hinge.length).powf(BEND)).max(0.0);
             let first = self.frames[0];
-            let angle = |side: DVec3, x: DVec3| side.dot(first.tangent).atan2(side.dot(x));
+            // The part along the limb falls evenly, so that the rim moves evenly along the limb.
             let tilted = |side: DVec3, sign: f64| {
-                let angle = bend * angle(side, sign * first.x);
-                sign * angle.cos() * x + angle.sin() * tangent
+                let along = bend * side.dot(first.tangent);
+                sign * (1.0 - along * along).max(0.0).sqrt() * x + along * tangent
             };
             (plane.right, plane.left) = (tilted(hinge.right, 1.0), tilted(hinge.left, -1.0));
             plane.bend = bend;
@@ -168,6 +170,11 @@ pub(super) fn runs(route: &Route<'_>, from: f64, to: f64, spacing: f64) -> Vec<R
         runs.push(Run { arc: vec![arc(k)], volume: vec![0.0], section: vec![section] });
         is_open = true;
     }
-    runs.retain(|run| run.arc.len() > 1);
+    // A stretch shorter than it is wide is not worth its two ends.
+    runs.retain(|run| {
+        let (first, last) = (run.section.len().min(1), run.section.len() - 1);
+        let area = run.section[first.min(last)].area.min(run.section[last].area);
+        run.arc[last] - run.arc[0] > 2.0 * (area / PI).sqrt()
+    });
     runs
 }

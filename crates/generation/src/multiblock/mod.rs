@@ -220,8 +220,10 @@ fn fill_zone(
 /// Gives up layers that reach into the blocks of another limb.
 fn keep_apart(limbs: &[Limb<'_>], fillings: &mut [Filling], spacing: f64) {
     for k in 0..limbs.len() {
-        let others: Vec<usize> =
-            (0..limbs.len()).filter(|&m| m != k && touches(&limbs[k], &limbs[m])).collect();
+        if limbs[k].hinge.is_some() {
+            continue;
+        }
+        let others = (0..limbs.len()).filter(|&m| m != k);
         let mut surface = Surface { vertices: Vec::new(), triangles: Vec::new() };
         for m in others {
             add_tubes(&mut surface, &limbs[m], &fillings[m]);
@@ -235,12 +237,6 @@ fn keep_apart(limbs: &[Limb<'_>], fillings: &mut [Filling], spacing: f64) {
                 layer.cells.iter().all(|c| distance.query(c.centroid).distance > APART * spacing);
         }
     }
-}
-
-/// Whether two limbs start at the same junction without a hinge.
-fn touches(a: &Limb<'_>, b: &Limb<'_>) -> bool {
-    let has = |limb: &Limb<'_>, junction: usize| limb.junctions.contains(&Some(junction));
-    a.hinge.is_none() && a.junctions.iter().flatten().any(|j| has(b, *j))
 }
 
 /// Distance to all blocks; `None` where there are none.
@@ -417,7 +413,8 @@ impl<'a> Work<'a> {
                 }
             }
         }
-        filling.is_whole &= filling.layers().all(|l| l.is_sound);
+        let is_sound = filling.layers().all(|l| l.is_sound);
+        filling.is_whole &= is_sound;
         let ends = runs.first().zip(runs.last()).map(|(a, b)| [a.arc[0], b.arc[b.arc.len() - 1]]);
         filling.is_whole &= ends == Some([limb.from, limb.route.length()]);
         filling

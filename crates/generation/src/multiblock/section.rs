@@ -57,9 +57,14 @@ impl Section {
     /// not seen whole from its centre.
     pub(super) fn cut(plane: Plane, wall: &SignedDistance, reach: f64) -> Option<Self> {
         let radii = |center: DVec2| -> Option<Vec<f64>> {
-            let from = plane.place(center);
-            let ray = |k: usize| wall.cast(from, plane.place(center + direction(k)) - from, reach);
-            (0..RAYS).map(ray).collect()
+            // A ray can slip through between triangles; one beside it, or in a plane beside, does not.
+            let ray = |k: usize, aside: f64, before: f64| {
+                let from = plane.place(center) + before * reach * plane.right.cross(plane.y);
+                let to = plane.place(center + direction(k) + aside * direction(k).perp());
+                wall.cast(from, (to - plane.place(center)).normalize(), reach)
+            };
+            const TRIES: [(f64, f64); 5] = [(0.0, 0.0), (1e-5, 0.0), (-1e-5, 0.0), (0.0, 1e-5), (0.0, -1e-5)];
+            (0..RAYS).map(|k| TRIES.iter().find_map(|&(aside, before)| ray(k, aside, before))).collect()
         };
         let radius = radii(DVec2::ZERO)?;
         let along = 0.5 * (radius[QUARTER] - radius[3 * QUARTER]);

@@ -50,6 +50,8 @@ pub(crate) struct Wireframe {
     pub(crate) cells: usize,
     /// Coefficient of variation of the areas of the cells on the disc.
     pub(crate) spread: f64,
+    /// Area of the smallest cell over the mean, on the disc.
+    pub(crate) smallest: f64,
     /// Smallest distance between the centres of cells, in square roots of their mean area.
     pub(crate) closest: f64,
 }
@@ -152,6 +154,7 @@ impl Wireframe {
         let variance = areas.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / areas.len() as f64;
         self.cells = areas.len();
         self.spread = variance.sqrt() / mean;
+        self.smallest = areas.iter().fold(f64::INFINITY, |a, b| a.min(*b)) / mean;
         // By growing x, each looks ahead as far as the closest pair so far.
         centers.sort_by(|a, b| a.x.total_cmp(&b.x));
         let mut closest = f64::INFINITY;
@@ -225,7 +228,7 @@ fn core_patch([right, top, left, bottom]: &[Vec<DVec2>; 4]) -> Patch {
 }
 
 fn frame(patches: Vec<Patch>, wall: Vec<Projection>) -> Wireframe {
-    Wireframe { patches, wall, cells: 0, spread: f64::INFINITY, closest: 0.0 }
+    Wireframe { patches, wall, cells: 0, spread: f64::INFINITY, smallest: 0.0, closest: 0.0 }
 }
 
 fn o_grid(d: Divisions, shape: Shape) -> Wireframe {
@@ -285,7 +288,7 @@ fn single(d: Divisions) -> Wireframe {
             )
         }
     };
-    let wall = (0..total).map(|k| Projection { at: at[k], from: opposite(k) }).collect();
+    let wall = (0..total).map(|k| Projection { at: at[k], from: 0.5 * (at[k] + opposite(k)) }).collect();
     let line = |from: usize, n: usize| (0..=n).map(|k| Node::Wall((from + k) % total)).collect::<Vec<_>>();
     let backwards = |line: Vec<Node>| line.into_iter().rev().collect::<Vec<_>>();
     let (right, top) = (line(0, d.along), line(d.along, d.across));

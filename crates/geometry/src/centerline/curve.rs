@@ -97,16 +97,36 @@ impl Curve {
         Self::new(self.point.iter().rev().copied())
     }
 
-    /// The curve with each inner point moved half way to the middle of its neighbours, `passes` times.
-    pub fn smoothed(&self, passes: usize) -> Self {
-        let mut point = self.point.clone();
-        for _ in 0..passes {
-            let old = point.clone();
-            for k in 1..old.len().saturating_sub(1) {
-                point[k] = 0.5 * old[k] + 0.25 * (old[k - 1] + old[k + 1]);
+    /// The curve with each point moved to the mean of those around it, weighted by a Gaussian of the standard
+    /// deviation `width` \[m\] gives for the point; the ends stay.
+    ///
+    /// A bend of radius r moves inwards by width^2 / (2 r).
+    pub fn smoothed(&self, width: impl Fn(DVec3) -> f64) -> Self {
+        let (first, last, length) = (self.point[0], self.point[self.point.len() - 1], self.length());
+        let mean = |k: usize| {
+            let (at, width) = (self.arc[k], width(self.point[k]));
+            let reach = 3.0 * width;
+            let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+            let mut add = |arc: f64, point: DVec3| {
+                let weight = (-0.5 * ((arc - at) / width).powi(2)).exp();
+                weights += weight;
+                sum += weight * point;
+            };
+            let around =
+                self.arc.partition_point(|a| *a < at - reach)..self.arc.partition_point(|a| *a <= at + reach);
+            for m in around {
+                add(self.arc[m], self.point[m]);
             }
-        }
-        Self::new(point)
+            // Beyond its ends the curve goes on as its image in them, which leaves the ends where they are.
+            for m in 1..self.arc.partition_point(|a| *a <= reach - at) {
+                add(-self.arc[m], 2.0 * first - self.point[m]);
+            }
+            for m in self.arc.partition_point(|a| *a < 2.0 * length - at - reach)..self.arc.len() - 1 {
+                add(2.0 * length - self.arc[m], 2.0 * last - self.point[m]);
+            }
+            sum / weights
+        };
+        Self::new((0..self.point.len()).map(mean))
     }
 
     /// Frames at the points, turning about the curve as little as possible: double reflection (Wang,
@@ -139,6 +159,7 @@ fn reflect(v: DVec3, axis: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec2;
     use std::f64::consts::PI;
 
     fn helix(n: usize) -> Curve {
@@ -160,6 +181,18 @@ mod tests {
         };
         assert!(error(24) < 1e-3);
         assert!(error(48) < error(24) / 7.0, "{} after {}", error(48), error(24));
+    }
+
+    #[test]
+    fn smoothing_moves_a_bend_inwards_and_leaves_the_ends() {
+        let curve = Curve::new((0..=600).map(|k| DVec2::from_angle(f64::from(k) * PI / 600.0).extend(0.0)));
+        let smooth = curve.smoothed(|_| 0.2);
+        assert!((smooth.point[300].length() - (1.0 - 0.02)).abs() < 1e-3, "{}", smooth.point[300].length());
+        assert!(smooth.point[0].distance(DVec3::X) < 1e-12 && smooth.point[600].distance(-DVec3::X) < 1e-12);
+        let line = Curve::new((0..=50).map(|k| f64::from(k) * DVec3::Y));
+        for (a, b) in line.smoothed(|_| 4.0).point.iter().zip(&line.point) {
+            assert!(a.distance(*b) < 1e-12);
+        }
     }
 
     /// Along a closed turn of a helix a frame that does not turn has turned against the natural one by the

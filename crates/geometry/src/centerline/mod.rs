@@ -13,8 +13,8 @@ use glam::DVec3;
 /// Points across the radius at which two ways are compared, and of the lines between them.
 const STEPS_ACROSS: f64 = 10.0;
 const SAMPLES: usize = 32;
-/// Passes that smooth the steps of the grid out of a way.
-const PASSES: usize = 40;
+/// Width over which the steps of the grid are smoothed out of a way, in distances from the wall.
+const WIDTH: f64 = 0.5;
 
 /// Where a branch starts or ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +75,8 @@ impl Centerlines {
         let leaf = |o: &crate::Opening| {
             let inner = ways.from_root(o.center)?;
             let way = std::iter::once(root.center).chain(inner).chain([o.center]);
-            Some(Curve::new(way).resampled(2.0 * step).smoothed(PASSES).resampled(step))
+            let width = |x: DVec3| WIDTH * wall.query(x).distance.abs().max(2.0 * step);
+            Some(Curve::new(way).resampled(step).smoothed(width).resampled(step))
         };
         let leaves: Vec<Curve> = others.iter().map(leaf).collect::<Option<_>>()?;
         let mut tree = Tree { leaves, closed, step, lines: Self::default() };
