@@ -1,6 +1,7 @@
 //! Why particles cannot be made, and what is doubtful about those that can.
 
 use crate::Settings;
+use glam::DVec3;
 use vaso_geometry::Vessel;
 
 /// Spacings across the radius of an opening below which it is refused.
@@ -38,6 +39,15 @@ pub enum GenerationError {
         spacing: f64,
         /// Largest spacing with three particles across the radius \[m\].
         needed: f64,
+    },
+    /// Nothing is left to put a shell on.
+    #[error(
+        "the vessel has no wall: all its triangles belong to the {openings} openings found; \
+         is it a tube with round ends?"
+    )]
+    NoWall {
+        /// Openings of the vessel.
+        openings: usize,
     },
     /// The whole region takes no particle.
     #[error(
@@ -96,7 +106,11 @@ pub fn warnings(vessel: &Vessel, settings: &Settings) -> Vec<Warning> {
 
 /// Refuses settings that cannot give particles for `vessel`.
 pub(crate) fn check(vessel: &Vessel, settings: &Settings) -> Result<(), GenerationError> {
-    let &Settings { spacing, smoothing, .. } = settings;
+    check_spacing(vessel, settings.spacing, settings.smoothing)
+}
+
+/// Refuses a spacing and a smoothing length that cannot give particles for `vessel`.
+pub(crate) fn check_spacing(vessel: &Vessel, spacing: f64, smoothing: f64) -> Result<(), GenerationError> {
     if !(spacing > 0.0 && spacing.is_finite()) {
         return Err(GenerationError::Setting { key: "spacing", value: spacing, allowed: "above 0 m" });
     }
@@ -122,4 +136,19 @@ pub(crate) fn particle_count(volume: f64, spacing: f64) -> Result<usize, Generat
         n if n >= 1.0 => Ok(n as usize),
         _ => Err(GenerationError::Empty { spacing, volume }),
     }
+}
+
+/// Number of particles for a surface of `area` \[m^2\] within `bounds` \[m\], rounded up.
+pub(crate) fn shell_count(
+    area: f64,
+    bounds: (DVec3, DVec3),
+    spacing: f64,
+) -> Result<usize, GenerationError> {
+    let predicted = (area / (spacing * spacing)).ceil();
+    // Neighbours are searched in cells over the whole box, so their number is a limit too.
+    let cells = (bounds.1 - bounds.0).to_array().iter().map(|e| e / spacing + 1.0).product::<f64>() / 8.0;
+    if predicted.max(cells) > MOST_PARTICLES {
+        return Err(GenerationError::TooFine { spacing, predicted: predicted.max(cells) });
+    }
+    Ok(predicted as usize)
 }

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod ends;
 mod error;
 mod extended;
 mod faces;
@@ -10,11 +11,13 @@ mod quality;
 mod random;
 mod region;
 mod relax;
+mod shell;
 mod wall;
 
 pub use error::{GenerationError, Warning, warnings};
 pub use lattice::Lattice;
 pub use quality::Quality;
+pub use shell::{Allotment, ShellBody, ShellQuality, ShellReference, ShellSettings, shell};
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -106,7 +106,9 @@ impl SignedDistance {
     }
 
     /// As [`query`](Self::query), faster when triangle `guess` (of an earlier answer nearby) is near.
-    pub(crate) fn query_from(&self, x: DVec3, guess: u32) -> Nearest {
+    ///
+    /// Any number may be guessed, also one of no triangle.
+    pub fn query_from(&self, x: DVec3, guess: u32) -> Nearest {
         match self.ids.binary_search(&guess) {
             // A little more than the distance of the guess, so that the guess itself can be found.
             Ok(leaf) => {
