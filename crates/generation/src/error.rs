@@ -92,6 +92,18 @@ pub enum Warning {
         /// Largest spacing with three particles across the radius \[m\].
         needed: f64,
     },
+    /// Limbs are so near each other that they have one wall.
+    #[error(
+        "{:.2} % of the wall of {thickness:.3e} m belong to two parts of the vessel at once, \
+         which move together there; a thinner wall or a shell keeps them apart",
+        100.0 * shared
+    )]
+    SharedWall {
+        /// Share of the volume of the wall.
+        shared: f64,
+        /// Thickness of the wall \[m\].
+        thickness: f64,
+    },
 }
 
 /// What is doubtful about `settings` for `vessel`; costs nothing, so it can be asked before generating.
@@ -139,11 +151,7 @@ pub(crate) fn particle_count(volume: f64, spacing: f64) -> Result<usize, Generat
 }
 
 /// Number of particles for a surface of `area` \[m^2\] within `bounds` \[m\], rounded up.
-pub(crate) fn shell_count(
-    area: f64,
-    bounds: (DVec3, DVec3),
-    spacing: f64,
-) -> Result<usize, GenerationError> {
+pub(crate) fn shell_count(area: f64, bounds: (DVec3, DVec3), spacing: f64) -> Result<usize, GenerationError> {
     let predicted = (area / (spacing * spacing)).ceil();
     // Neighbours are searched in cells over the whole box, so their number is a limit too.
     let cells = (bounds.1 - bounds.0).to_array().iter().map(|e| e / spacing + 1.0).product::<f64>() / 8.0;

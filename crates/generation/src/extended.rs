@@ -27,7 +27,8 @@ impl ExtendedLumen {
         let extended = draw_out(vessel, &length);
         let (low, high) = extended.surface.bounds();
         let bounds = (low - reach, high + reach);
-        let band = 6.5 * spacing;
+        // As wide as the reach and what a region has to tell beyond it, and not less than a kernel feels.
+        let band = (reach + 1.5 * spacing).max(6.5 * spacing);
         let exact = SignedDistance::closed(&extended);
         let table =
             DistanceGrid::build(&exact, (low - reach - spacing, high + reach + spacing), spacing, band);

@@ -89,9 +89,8 @@ pub(crate) fn places<'a>(
         let corners = surface.triangle(t as usize);
         let first = before;
         before += n;
-        (first..first + n).map(move |k| {
-            (if n == 1 { corners.iter().sum::<DVec3>() / 3.0 } else { place(corners, k) }, t)
-        })
+        (first..first + n)
+            .map(move |k| (if n == 1 { corners.iter().sum::<DVec3>() / 3.0 } else { place(corners, k) }, t))
     })
 }
 
@@ -139,8 +138,9 @@ mod tests {
     #[test]
     fn tiny_triangles_share_evenly_along_the_curve() {
         let pipe = shapes::pipe(1.0, 8.0, DVec3::Z, 200);
-        let walls: Vec<u32> =
-            (0..pipe.triangles.len() as u32).filter(|&t| pipe.triangle_normal(t as usize).z.abs() < 0.5).collect();
+        let walls: Vec<u32> = (0..pipe.triangles.len() as u32)
+            .filter(|&t| pipe.triangle_normal(t as usize).z.abs() < 0.5)
+            .collect();
         let order = morton_order(&pipe, &walls);
         let areas: Vec<f64> = order.iter().map(|&t| pipe.triangle_area(t as usize)).collect();
         let count = order.len() / 100;

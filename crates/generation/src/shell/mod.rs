@@ -135,7 +135,8 @@ pub fn shell(
     let ring = ends::ring(spacing, smoothing);
     let position: Vec<DVec3> = particles.iter().map(|foot| foot.point).collect();
     let normal: Vec<DVec3> = particles.iter().map(|foot| foot.normal).collect();
-    let clamped = ends::clamped(vessel, &position, &normal, ring, settings.thickness + 2.0 * spacing);
+    let lateral = settings.thickness + ends::LATERAL * spacing;
+    let clamped = ends::clamped(vessel, &position, &normal, ring, lateral);
     let thickness = vec![settings.thickness; count];
     let area = vec![relaxation.area; count];
     let mut body = ShellBody { position, normal, area, thickness, curvature, clamped, quality };
@@ -148,9 +149,8 @@ pub fn shell(
 /// The start: particles shared out among the wall triangles along a space-filling curve.
 fn start(vessel: &Vessel, sheet: &Sheet<'_>, count: usize, allotment: Allotment) -> Vec<Foot> {
     let surface = &vessel.surface;
-    let wall: Vec<u32> = (0..surface.triangles.len() as u32)
-        .filter(|&t| vessel.face_opening[t as usize].is_none())
-        .collect();
+    let wall: Vec<u32> =
+        (0..surface.triangles.len() as u32).filter(|&t| vessel.face_opening[t as usize].is_none()).collect();
     let order = allotment::morton_order(surface, &wall);
     let areas: Vec<f64> = order.iter().map(|&t| surface.triangle_area(t as usize)).collect();
     let shares = allotment::allot(&areas, count, allotment);

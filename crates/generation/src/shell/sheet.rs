@@ -4,9 +4,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 use vaso_geometry::{NearestRim, Rim, SignedDistance, SmoothNormals, Vessel};
 
-/// Least cosine between the normals of two particles that see each other. Walls on both sides of a thin gap
-/// look at each other and must not push each other about, however near they are.
-const SAME_SHEET: f64 = 0.3;
+/// Least cosine between the normals of two particles that see each other.
+///
+/// Walls on both sides of a thin gap look at each other and must not push each other about, however near they
+/// are; their cosine is near -1. It lies just below zero so that both sides of a crease at right angles are
+/// one sheet: with 0.3 a duct of square section has pairs at 0.57 spacings and a variation of 0.09 along its
+/// edges, with -0.1 it is 0.77 and 0.05.
+const SAME_SHEET: f64 = -0.1;
 /// Cosine between the normals before and after a step below which the step went through the lumen or a gap,
 /// onto another part of the wall.
 const OTHER_SHEET: f64 = -0.5;
