@@ -16,6 +16,7 @@ mod repair;
 mod rim;
 mod section;
 mod self_intersection;
+mod sets;
 pub mod shapes;
 mod smooth_normals;
 mod surface;

@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use crate::{
     error::GeometryError,
     self_intersection::{IntersectionPlace, places, self_intersections},
+    sets::Sets,
     surface::Surface,
     vessel::Vessel,
 };
@@ -14,6 +15,10 @@ use crate::{
 const MITER_LIMIT: f64 = 2.0;
 /// Eigenvalue, as part of their sum, below which the normals at a vertex do not span a direction.
 const NOT_SPANNED: f64 = 0.01;
+
+/// Edges shorter than this many median edges have both ends moved alike, as if they were one vertex: moved each
+/// its own way they would pass each other, and the slivers along them have no normal worth the name.
+const SLIVER: f64 = 0.1;
 
 /// A surface moved outwards, and what is wrong with it.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,13 +87,18 @@ struct Incidence {
 fn ways(vessel: &Vessel) -> Vec<DVec3> {
     let surface = &vessel.surface;
     let mut incidence = vec![Incidence { matrix: DMat3::ZERO, ..Default::default() }; surface.vertices.len()];
+    let root = join_short_edges(surface, SLIVER * vessel.audit.edge_length.median);
     for (t, corners) in surface.triangles.iter().enumerate() {
+        let corners = corners.map(|v| root[v as usize]);
+        if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
+            continue;
+        }
         let normal = surface.triangle_normal(t);
         let p = surface.triangle(t);
         for k in 0..3 {
             let (u, v) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
             let angle = u.cross(v).length().atan2(u.dot(v));
-            let at = &mut incidence[corners[k] as usize];
+            let at = &mut incidence[corners[k]];
             at.matrix += angle * DMat3::from_cols(normal.x * normal, normal.y * normal, normal.z * normal);
             at.weight += angle;
             if vessel.face_opening[t].is_none() {
@@ -96,7 +106,21 @@ fn ways(vessel: &Vessel) -> Vec<DVec3> {
             }
         }
     }
-    incidence.iter().map(Incidence::solve).collect()
+    let ways: Vec<DVec3> = incidence.iter().map(Incidence::solve).collect();
+    root.iter().map(|&v| ways[v]).collect()
+}
+
+/// For each vertex the lowest that it is joined to by edges shorter than `length` \[m\].
+fn join_short_edges(surface: &Surface, length: f64) -> Vec<usize> {
+    let mut sets = Sets::new(surface.vertices.len());
+    for &[a, b, c] in &surface.triangles {
+        for (a, b) in [(a, b), (b, c), (c, a)].map(|(a, b)| (a as usize, b as usize)) {
+            if surface.vertices[a].distance(surface.vertices[b]) < length {
+                sets.join(a, b);
+            }
+        }
+    }
+    (0..surface.vertices.len()).map(|v| sets.lowest(v)).collect()
 }
 
 impl Incidence {
@@ -178,6 +202,27 @@ mod tests {
         for place in &thick.places {
             assert!((place.center.x - 0.0025).abs() < 0.2e-3, "{place:?}");
         }
+    }
+
+    /// Three triangles about a corner of a wall triangle, a hundredth of its size and out of its plane.
+    #[test]
+    fn slivers_move_as_one() {
+        let mut pipe = shapes::pipe(0.002, 0.01, DVec3::Z, 48);
+        let t = (0..pipe.triangles.len())
+            .find(|&t| {
+                let [a, b, c] = pipe.triangle(t);
+                ((a + b + c).z / 3.0 - 0.005).abs() < 0.2e-3 && pipe.triangle_normal(t).z.abs() < 0.5
+            })
+            .expect("a pipe has a middle");
+        let [a, b, c] = pipe.triangle(t);
+        let near = a + 0.01 * (b - a) + 0.01 * (c - a) + 4e-6 * pipe.triangle_normal(t);
+        let [a, b, c] = pipe.triangles[t];
+        let v = pipe.vertices.len() as u32;
+        pipe.vertices.push(near);
+        pipe.triangles[t] = [a, b, v];
+        pipe.triangles.extend([[b, c, v], [c, a, v]]);
+        let outer = extrude(&vessel(pipe), 0.3e-3).expect("a positive distance");
+        assert!(outer.is_sound(), "{} flipped, {:?}", outer.flipped, outer.places);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use parry3d_f64::{
 };
 use rayon::prelude::*;
 
-use crate::surface::Surface;
+use crate::{sets::Sets, surface::Surface};
 
 /// Height over a plane, as part of the diagonal of the surface, that is rounding error.
 const ON_PLANE: f64 = 1e-12;
@@ -51,17 +51,14 @@ pub fn self_intersections(surface: &Surface) -> Vec<[u32; 2]> {
 
 /// The connected places at which the given pairs of triangles lie, those with most pairs first.
 pub(crate) fn places(surface: &Surface, pairs: &[[u32; 2]]) -> Vec<IntersectionPlace> {
-    let mut parent: Vec<usize> = (0..pairs.len()).collect();
+    let mut sets = Sets::new(pairs.len());
     // Pairs belong together when they have a vertex in common.
     let mut owner: Vec<Option<usize>> = vec![None; surface.vertices.len()];
     for (k, pair) in pairs.iter().enumerate() {
         for &v in pair.iter().flat_map(|&t| &surface.triangles[t as usize]) {
             match owner[v as usize] {
                 None => owner[v as usize] = Some(k),
-                Some(other) => {
-                    let (a, b) = (root(&mut parent, k), root(&mut parent, other));
-                    parent[a.max(b)] = a.min(b);
-                }
+                Some(other) => sets.join(k, other),
             }
         }
     }
@@ -69,7 +66,7 @@ pub(crate) fn places(surface: &Surface, pairs: &[[u32; 2]]) -> Vec<IntersectionP
         pair.iter().map(|&t| surface.triangle(t as usize).into_iter().sum::<DVec3>()).sum::<DVec3>() / 6.0
     };
     let mut by_root: Vec<(usize, DVec3)> =
-        (0..pairs.len()).map(|k| (root(&mut parent, k), center(&pairs[k]))).collect();
+        (0..pairs.len()).map(|k| (sets.lowest(k), center(&pairs[k]))).collect();
     by_root.sort_by_key(|(root, _)| *root);
     let mut places: Vec<IntersectionPlace> = by_root
         .chunk_by(|a, b| a.0 == b.0)
@@ -81,14 +78,6 @@ pub(crate) fn places(surface: &Surface, pairs: &[[u32; 2]]) -> Vec<IntersectionP
         .collect();
     places.sort_by_key(|place| std::cmp::Reverse(place.pairs));
     places
-}
-
-fn root(parent: &mut [usize], mut k: usize) -> usize {
-    while parent[k] != k {
-        parent[k] = parent[parent[k]];
-        k = parent[k];
-    }
-    k
 }
 
 /// Whether two triangles cut each other.
