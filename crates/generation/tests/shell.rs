@@ -254,6 +254,29 @@ fn the_shell_of_a_bend_stays_on_its_surface() {
     assert!(body.quality.nearest_neighbor_min > 0.65 && body.quality.nearest_neighbor_cv < 0.06);
 }
 
+/// Inside a tight bend half a thickness reaches beyond the centre of curvature, elsewhere it does not.
+#[test]
+fn folds_of_the_mid_surface_are_counted() {
+    let vessel = vessel(shapes::bent_pipe(2.0, 2.6, PI, 64));
+    let folded = |thickness| generate(&vessel, &ShellSettings::new(SPACING, thickness)).quality.folded;
+    assert_eq!(folded(0.4e-3), 0);
+    let thick = folded(1.6e-3);
+    assert!(thick > 10 && thick < 200, "{thick}");
+}
+
+/// A metre off, a coordinate has lost three digits to the shift, which must not change the set by more than
+/// its chance arrangement.
+#[test]
+fn a_shift_by_a_metre_changes_nothing() {
+    let pipe = shapes::pipe(2.0, 8.0, axis(), 64);
+    let near = generate(&vessel(pipe.clone()), &on_lumen()).quality;
+    let far = generate(&vessel(pipe.map(|x| x + DVec3::splat(1e3))), &on_lumen()).quality;
+    assert_eq!(near.count, far.count);
+    assert!(far.area_error.abs() < 1e-9 && far.surface_distance_max < 1e-9, "{far:?}");
+    assert!((near.nearest_neighbor_cv - far.nearest_neighbor_cv).abs() < 5e-3, "{near:?} {far:?}");
+    assert!((near.nearest_neighbor_min - far.nearest_neighbor_min).abs() < 0.05, "{near:?} {far:?}");
+}
+
 #[test]
 fn settings_that_cannot_work_are_refused() {
     let vessel = pipe();

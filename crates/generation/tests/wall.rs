@@ -154,6 +154,18 @@ fn the_share_of_a_common_wall_is_that_of_the_section() {
 }
 
 #[test]
+fn the_same_bits_on_one_and_two_threads() {
+    let vessel = vessel(pipe(LENGTH));
+    let settings = Settings { steps: 20, ..Settings::new(SPACING) };
+    let generate = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+        let made = || wall(&vessel, &settings, 1e-3, Ends::ClosestCap, &mut |_, _| {});
+        pool.install(made).expect("the pipe is wide enough")
+    };
+    assert_eq!(generate(1), generate(2));
+}
+
+#[test]
 fn thicknesses_that_cannot_work_are_refused() {
     let vessel = vessel(pipe(LENGTH));
     let refusal = |thickness, ends| {
