@@ -36,8 +36,8 @@ impl Neighbors {
         Self { grid: CellGrid::new(bounds, radius), radius, order: Vec::new(), chunk: Vec::new() }
     }
 
-    /// Puts the particles in cell order and lists their neighbours.
-    pub(crate) fn rebuild(&mut self, position: &mut Vec<DVec3>) {
+    /// Puts the particles in cell order, lists their neighbours and returns the old number of each.
+    pub(crate) fn rebuild(&mut self, position: &mut Vec<DVec3>) -> &[u32] {
         self.grid.sort(position, &mut self.order);
         *position = self.order.par_iter().map(|&old| position[old as usize]).collect();
         self.chunk.resize_with(position.len().div_ceil(CHUNK), Chunk::default);
@@ -58,6 +58,7 @@ impl Neighbors {
                 chunk.end.push(chunk.neighbor.len() as u32);
             }
         });
+        &self.order
     }
 
     /// Row chunks; chunk `c` starts with particle `c * CHUNK`.

@@ -170,10 +170,8 @@ impl Listed {
     /// Sorts the particles and makes the lists again.
     fn renew(&mut self, relaxation: &SheetRelaxation<'_>, particles: &mut Vec<Foot>) {
         let mut position: Vec<DVec3> = particles.iter().map(|foot| foot.point).collect();
-        self.neighbors.rebuild(&mut position);
-        // The lists know positions only; triangle and normal are found again, which sorting would not spare.
-        let feet = position.par_iter().with_min_len(CHUNK).map(|x| relaxation.sheet.foot(*x, u32::MAX));
-        *particles = feet.collect();
+        let order = self.neighbors.rebuild(&mut position);
+        *particles = order.iter().map(|&old| particles[old as usize]).collect();
         let feels = |foot: &Foot| relaxation.sheet.rim(foot, self.reach).is_some();
         self.near_rim = particles.par_iter().with_min_len(CHUNK).map(feels).collect();
         self.position = position;
