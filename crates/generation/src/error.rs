@@ -1,6 +1,7 @@
 //! Why particles cannot be made, and what is doubtful about those that can.
 
 use crate::Settings;
+use glam::DVec3;
 use vaso_geometry::Vessel;
 
 /// Spacings across the radius of an opening below which it is refused.
@@ -38,6 +39,15 @@ pub enum GenerationError {
         spacing: f64,
         /// Largest spacing with three particles across the radius \[m\].
         needed: f64,
+    },
+    /// Nothing is left to put a shell on.
+    #[error(
+        "the vessel has no wall: all its triangles belong to the {openings} openings found; \
+         is it a tube with round ends?"
+    )]
+    NoWall {
+        /// Openings of the vessel.
+        openings: usize,
     },
     /// The whole region takes no particle.
     #[error(
@@ -82,6 +92,18 @@ pub enum Warning {
         /// Largest spacing with three particles across the radius \[m\].
         needed: f64,
     },
+    /// Limbs are so near each other that they have one wall.
+    #[error(
+        "{:.2} % of the wall of {thickness:.3e} m belong to two parts of the vessel at once, \
+         which move together there; a thinner wall or a shell keeps them apart",
+        100.0 * shared
+    )]
+    SharedWall {
+        /// Share of the volume of the wall.
+        shared: f64,
+        /// Thickness of the wall \[m\].
+        thickness: f64,
+    },
 }
 
 /// What is doubtful about `settings` for `vessel`; costs nothing, so it can be asked before generating.
@@ -96,7 +118,11 @@ pub fn warnings(vessel: &Vessel, settings: &Settings) -> Vec<Warning> {
 
 /// Refuses settings that cannot give particles for `vessel`.
 pub(crate) fn check(vessel: &Vessel, settings: &Settings) -> Result<(), GenerationError> {
-    let &Settings { spacing, smoothing, .. } = settings;
+    check_spacing(vessel, settings.spacing, settings.smoothing)
+}
+
+/// Refuses a spacing and a smoothing length that cannot give particles for `vessel`.
+pub(crate) fn check_spacing(vessel: &Vessel, spacing: f64, smoothing: f64) -> Result<(), GenerationError> {
     if !(spacing > 0.0 && spacing.is_finite()) {
         return Err(GenerationError::Setting { key: "spacing", value: spacing, allowed: "above 0 m" });
     }
@@ -122,4 +148,15 @@ pub(crate) fn particle_count(volume: f64, spacing: f64) -> Result<usize, Generat
         n if n >= 1.0 => Ok(n as usize),
         _ => Err(GenerationError::Empty { spacing, volume }),
     }
+}
+
+/// Number of particles for a surface of `area` \[m^2\] within `bounds` \[m\], rounded up.
+pub(crate) fn shell_count(area: f64, bounds: (DVec3, DVec3), spacing: f64) -> Result<usize, GenerationError> {
+    let predicted = (area / (spacing * spacing)).ceil();
+    // Neighbours are searched in cells over the whole box, so their number is a limit too.
+    let cells = (bounds.1 - bounds.0).to_array().iter().map(|e| e / spacing + 1.0).product::<f64>() / 8.0;
+    if predicted.max(cells) > MOST_PARTICLES {
+        return Err(GenerationError::TooFine { spacing, predicted: predicted.max(cells) });
+    }
+    Ok(predicted as usize)
 }

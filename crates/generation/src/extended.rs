@@ -23,13 +23,12 @@ impl ExtendedLumen {
     ///
     /// `reach` \[m\] is how far outside the wall the distance will be asked for.
     pub(crate) fn new(vessel: &Vessel, length: f64, reach: f64, spacing: f64) -> Self {
-        let closed = SignedDistance::closed(vessel);
-        let free = |opening| free_length(vessel, &closed, opening, length, spacing);
-        let length: Vec<f64> = (0..vessel.openings.len()).map(free).collect();
+        let length = free_lengths(vessel, length, spacing);
         let extended = draw_out(vessel, &length);
         let (low, high) = extended.surface.bounds();
         let bounds = (low - reach, high + reach);
-        let band = 6.5 * spacing;
+        // As wide as the reach and what a region has to tell beyond it, and not less than a kernel feels.
+        let band = (reach + 1.5 * spacing).max(6.5 * spacing);
         let exact = SignedDistance::closed(&extended);
         let table =
             DistanceGrid::build(&exact, (low - reach - spacing, high + reach + spacing), spacing, band);
@@ -46,6 +45,19 @@ impl ExtendedLumen {
         let nearest = self.exact.query(x);
         (nearest.distance, nearest.normal)
     }
+}
+
+/// The vessel with each opening drawn out by `length` \[m\], less where another part is in the way; the
+/// frames of the openings stay where they are.
+pub(crate) fn with_collars(vessel: &Vessel, length: f64, spacing: f64) -> Vessel {
+    draw_out(vessel, &free_lengths(vessel, length, spacing))
+}
+
+/// How far each opening can be drawn out, at most `length` \[m\].
+fn free_lengths(vessel: &Vessel, length: f64, spacing: f64) -> Vec<f64> {
+    let closed = SignedDistance::closed(vessel);
+    let free = |opening| free_length(vessel, &closed, opening, length, spacing);
+    (0..vessel.openings.len()).map(free).collect()
 }
 
 /// How far the border of an opening can be moved out before another part of the vessel is nearer than

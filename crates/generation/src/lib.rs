@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod ends;
 mod error;
 mod extended;
 mod faces;
@@ -11,11 +12,15 @@ mod quality;
 mod random;
 mod region;
 mod relax;
+mod shell;
 mod wall;
 
+pub use ends::Ends;
 pub use error::{GenerationError, Warning, warnings};
 pub use lattice::Lattice;
 pub use quality::Quality;
+pub use shell::{Allotment, ShellBody, ShellQuality, ShellReference, ShellSettings, shell};
+pub use wall::{WALL_LAYERS, Wall, rigid_wall, wall};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,9 +28,6 @@ use region::Region;
 use relax::Relaxation;
 use vaso_geometry::{SignedDistance, Vessel};
 use vaso_kernels::Wendland;
-
-/// Thickness of a rigid wall, in spacings: one kernel support and more at the usual smoothing length.
-pub const WALL_LAYERS: f64 = 4.0;
 
 /// How particles are made.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,38 +92,6 @@ pub fn fluid(
     let mut body = fill(&region, volume, settings, progress)?;
     let closed = SignedDistance::closed(vessel);
     body.quality.outside = body.position.par_iter().filter(|x| closed.query(**x).distance >= 0.0).count();
-    Ok(body)
-}
-
-/// Surrounds the lumen of `vessel` with a wall of [`WALL_LAYERS`] spacings.
-///
-/// The wall is the layer within that distance of the lumen surface, so walls of limbs that come close
-/// merge, and none enters a lumen. At each opening it goes on straight for 2h; nothing stands in front
-/// of the opening.
-///
-/// # Errors
-/// As for [`fluid`].
-pub fn rigid_wall(
-    vessel: &Vessel,
-    settings: &Settings,
-    progress: &mut dyn FnMut(usize, f64),
-) -> Result<Body, GenerationError> {
-    error::check(vessel, settings)?;
-    let dp = settings.spacing;
-    let thickness = WALL_LAYERS * dp;
-    error::particle_count(vessel.surface.area() * thickness, dp)?;
-    let region = wall::WallLayer::new(vessel, thickness, settings.support(), dp);
-    let volume = lattice::volume(&region, 0.5 * dp);
-    let mut body = fill(&region, volume, settings, progress)?;
-    // Between limbs nearer than a spacing there is no room: what is left in a lumen is taken out.
-    let closed = SignedDistance::closed(vessel);
-    let keep = |x: &DVec3| closed.query(*x).distance > 0.0 && region.exact_level(*x) < 0.0;
-    let kept: Vec<DVec3> = body.position.par_iter().copied().filter(keep).collect();
-    body.quality.count = kept.len();
-    body.quality.volume_error = kept.len() as f64 * dp.powi(3) / volume - 1.0;
-    body.volume.truncate(kept.len());
-    body.position = kept;
-    (body.depth, body.normal) = body.position.par_iter().map(|x| region.depth(*x)).unzip();
     Ok(body)
 }
 

@@ -102,15 +102,15 @@ impl Quality {
 }
 
 /// Running sums of a sample.
-struct Statistics {
-    n: usize,
+pub(crate) struct Statistics {
+    pub(crate) n: usize,
     sum: f64,
     square: f64,
-    least: f64,
+    pub(crate) least: f64,
 }
 
 impl Statistics {
-    fn of(values: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn of(values: impl Iterator<Item = f64>) -> Self {
         let mut s = Self { n: 0, sum: 0.0, square: 0.0, least: f64::INFINITY };
         for value in values {
             s.n += 1;
@@ -121,11 +121,11 @@ impl Statistics {
         s
     }
 
-    fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.sum / self.n as f64
     }
 
-    fn deviation(&self) -> f64 {
+    pub(crate) fn deviation(&self) -> f64 {
         (self.square / self.n as f64 - self.mean().powi(2)).max(0.0).sqrt()
     }
 }

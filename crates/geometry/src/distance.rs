@@ -10,6 +10,9 @@ use parry3d_f64::{
 
 use crate::{pseudo_normal::PseudoNormals, surface::Surface, vessel::Vessel, winding::WindingTree};
 
+/// Largest cosine between the normals on two sides of a gap.
+const AGAINST: f64 = -0.3;
+
 /// The nearest point of the surface to a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
@@ -111,7 +114,9 @@ impl SignedDistance {
     }
 
     /// As [`query`](Self::query), faster when triangle `guess` (of an earlier answer nearby) is near.
-    pub(crate) fn query_from(&self, x: DVec3, guess: u32) -> Nearest {
+    ///
+    /// Any number may be guessed, also one of no triangle.
+    pub fn query_from(&self, x: DVec3, guess: u32) -> Nearest {
         match self.ids.binary_search(&guess) {
             // A little more than the distance of the guess, so that the guess itself can be found.
             Ok(leaf) => {
@@ -120,6 +125,23 @@ impl SignedDistance {
             }
             Err(_) => self.query(x),
         }
+    }
+
+    /// Distance \[m\] to the nearest triangle within `reach` \[m\] whose outer side looks at `x` against
+    /// `normal`, the unit normal of the surface nearest to `x`: the far side of a gap.
+    ///
+    /// Against means at a cosine below -0.3.
+    pub fn facing(&self, x: DVec3, normal: DVec3, reach: f64) -> Option<f64> {
+        let looks_at = |leaf: u32| {
+            let face = self.normals.face(leaf as usize);
+            face.dot(normal) < AGAINST * face.length() && (x - self.corners[leaf as usize][0]).dot(face) > 0.0
+        };
+        let (_, squared) = self.tree.find_best(
+            reach * reach,
+            |node: &BvhNode, _| (x - x.clamp(node.mins(), node.maxs())).length_squared(),
+            |leaf, _| looks_at(leaf).then(|| x.distance_squared(self.project(leaf, x).0)),
+        )?;
+        Some(squared.sqrt())
     }
 
     /// Whether the signed distance changes by no more than the way gone: that of a closed surface does, while

@@ -152,4 +152,10 @@ pub enum GeometryError {
         /// Unit of the coordinates.
         unit: LengthUnit,
     },
+    /// A surface cannot be moved outwards by this.
+    #[error("the offset distance is {distance} m, allowed is a number above 0")]
+    OffsetDistance {
+        /// The distance \[m\].
+        distance: f64,
+    },
 }

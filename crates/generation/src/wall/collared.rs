@@ -1,4 +1,4 @@
-//! The region of a rigid wall: the layer around the lumen, open at the ends.
+//! The region of a wall with collars: the layer around the lumen, going on straight beyond its openings.
 
 use crate::extended::ExtendedLumen;
 use crate::faces::Faces;
@@ -17,7 +17,7 @@ const EXACT_TOLERANCE: f64 = 0.01;
 ///
 /// Being defined by a distance it needs no offset surface, cannot intersect itself, and where two limbs
 /// come close their walls merge.
-pub(crate) struct WallLayer<'a> {
+pub(crate) struct CollaredLayer<'a> {
     vessel: &'a Vessel,
     /// The lumen, drawn out past the ends of the collars.
     lumen: ExtendedLumen,
@@ -25,7 +25,7 @@ pub(crate) struct WallLayer<'a> {
     spacing: f64,
 }
 
-impl<'a> WallLayer<'a> {
+impl<'a> CollaredLayer<'a> {
     /// Layer of `thickness` \[m\] with collars of length `collar` \[m\] for particles of `spacing` \[m\].
     pub(crate) fn new(vessel: &'a Vessel, thickness: f64, collar: f64, spacing: f64) -> Self {
         let lumen = ExtendedLumen::new(vessel, collar + MARGIN * spacing, thickness + spacing, spacing);
@@ -102,7 +102,7 @@ fn is_far(opening: &Opening, x: DVec3, reach: f64) -> bool {
     u.hypot(v) > 3.0 * opening.radius + reach
 }
 
-impl Region for WallLayer<'_> {
+impl Region for CollaredLayer<'_> {
     fn bounds(&self) -> (DVec3, DVec3) {
         self.lumen.bounds
     }
