@@ -6,7 +6,7 @@ use crate::plan::PlannedOpening;
 use vaso_boundary::{Condition, Source};
 use vaso_io::EffectEntry;
 use vaso_scene::material::Viscosity;
-use vaso_scene::{Blood, Condition as Asked, Field, Generator, Profile, Scene, Wall, Word};
+use vaso_scene::{Blood, Condition as Asked, Field, Profile, Scene, Wall, Word};
 
 /// Refuses, all at once, what a case asks for and this version does not have.
 ///
@@ -28,9 +28,6 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
             _ => "shell",
         };
         refuse("wall.model".into(), seen, "\"rigid\"");
-    }
-    if let Generator::Multiblock(_) = scene.particles.generator {
-        refuse("particles.generator".into(), "multiblock", "\"relaxed-lattice\"");
     }
     for opening in &scene.openings {
         let key = |field: &str| format!("opening.{}.{field}", opening.name);

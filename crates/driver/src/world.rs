@@ -8,7 +8,7 @@ use glam::DVec3;
 use std::time::Instant;
 use vaso_boundary::Openings;
 use vaso_fluid::{Fluid, FluidState, Real};
-use vaso_generation::{Body, Lattice, Quality, Settings};
+use vaso_generation::{Body, Lattice, Quality, Settings, multiblock};
 use vaso_geometry::{DistanceGrid, SignedDistance};
 use vaso_io::{Archive, Cache, CacheKey, KeyBuilder};
 use vaso_particles::{WallDistance, WallView};
@@ -20,6 +20,8 @@ pub struct Bodies {
     pub fluid: Body,
     /// Wall.
     pub wall: Body,
+    /// What of a block layout had to be left to the lattice.
+    pub notices: Vec<String>,
     /// Whether they came from the cache.
     pub cached: bool,
     /// Time it took \[s\], per body, or to read the cache.
@@ -41,6 +43,17 @@ pub fn generation_settings(scene: &Scene) -> Settings {
     }
 }
 
+/// How a scene wants blocks laid; `None` where it wants none.
+fn blocks(scene: &Scene) -> Option<multiblock::Options> {
+    let Generator::Multiblock(topology) = scene.particles.generator else { return None };
+    let topology = match topology {
+        vaso_scene::Topology::Single => multiblock::Topology::Single,
+        vaso_scene::Topology::NineBlock => multiblock::Topology::NineBlock,
+        vaso_scene::Topology::OGrid => multiblock::Topology::OGrid,
+    };
+    Some(multiblock::Options { topology, ..multiblock::Options::default() })
+}
+
 /// Layout version of cached particles; to be raised whenever generation changes its results.
 const CACHE_VERSION: u32 = 2;
 const CACHE_KIND: &str = "particles";
@@ -58,13 +71,21 @@ impl Bodies {
         let key = key(case, &settings);
         let start = Instant::now();
         if let Some((fluid, wall)) = cache.load(&key, CACHE_KIND, CACHE_VERSION).and_then(|a| unpack(&a)) {
-            return Ok(Self { fluid, wall, cached: true, seconds: [start.elapsed().as_secs_f64(), 0.0] });
+            return Ok(Self { fluid, wall, notices: Vec::new(), cached: true, seconds: [start.elapsed().as_secs_f64(), 0.0] });
         }
         let wrong = |source| DriverError::Generation { file: case.scene.file.clone(), source };
-        let fluid = vaso_generation::fluid(&case.vessel, &settings, &mut |step, moved| {
-            progress("fluid", step, moved)
-        })
-        .map_err(wrong)?;
+        let mut fluid_progress = |step, moved| progress("fluid", step, moved);
+        let (fluid, notices) = match blocks(&case.scene) {
+            None => {
+                let body = vaso_generation::fluid(&case.vessel, &settings, &mut fluid_progress).map_err(wrong)?;
+                (body, Vec::new())
+            }
+            Some(options) => {
+                let made = multiblock::fluid(&case.vessel, &settings, &options, &mut fluid_progress);
+                let made = made.map_err(wrong)?;
+                (made.body, made.report.unblocked_junctions)
+            }
+        };
         let fluid_seconds = start.elapsed().as_secs_f64();
         let wall = vaso_generation::rigid_wall(&case.vessel, &settings, &mut |step, moved| {
             progress("wall", step, moved)
@@ -73,7 +94,7 @@ impl Bodies {
         let seconds = [fluid_seconds, start.elapsed().as_secs_f64() - fluid_seconds];
         // A read-only folder costs the cache, not the run.
         let _ = cache.store(&key, &pack(&fluid, &wall));
-        Ok(Self { fluid, wall, cached: false, seconds })
+        Ok(Self { fluid, wall, notices, cached: false, seconds })
     }
 }
 
@@ -88,7 +109,8 @@ fn key(case: &Case, settings: &Settings) -> CacheKey {
             _ => "cubic",
         })
         .integer(settings.steps as u64)
-        .integer(settings.seed);
+        .integer(settings.seed)
+        .text(&blocks(&case.scene).map_or(String::new(), |b| format!("{:?} {}", b.topology, b.smoothing_sweeps)));
     for v in &surface.vertices {
         builder = builder.numbers(&v.to_array());
     }
