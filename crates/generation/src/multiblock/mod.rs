@@ -12,6 +12,7 @@ mod layers;
 mod limb;
 mod outline;
 mod section;
+mod spread;
 pub mod tfi;
 mod topology;
 mod winslow;
@@ -62,6 +63,8 @@ pub struct Report {
     pub smallest_cell: f64,
     /// Points of the wall that projection missed and that were placed by the rays of their section.
     pub missed_projections: usize,
+    /// Particles that were too close to another and moved off their cell's centroid.
+    pub pushed_particles: usize,
     /// Junctions filled by blocks.
     pub blocked_junctions: usize,
     /// Junctions left to the lattice, and why.
@@ -159,6 +162,8 @@ pub fn fluid(
         volume.resize(position.len() + extra.len(), left / extra.len().max(1) as f64);
         position.extend(extra);
     }
+    let lumen = Lumen::new(vessel, settings.spacing);
+    report.pushed_particles = spread::spread(&lumen, settings.spacing, &mut position, &mut volume);
     let mean = volume.iter().sum::<f64>() / volume.len() as f64;
     report.smallest_cell = volume.iter().fold(f64::INFINITY, |a, b| a.min(*b)) / mean;
     let quality = quality(vessel, settings, &mut position, &mut volume, iterations);
