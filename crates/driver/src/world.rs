@@ -71,13 +71,20 @@ impl Bodies {
         let key = key(case, &settings);
         let start = Instant::now();
         if let Some((fluid, wall)) = cache.load(&key, CACHE_KIND, CACHE_VERSION).and_then(|a| unpack(&a)) {
-            return Ok(Self { fluid, wall, notices: Vec::new(), cached: true, seconds: [start.elapsed().as_secs_f64(), 0.0] });
+            return Ok(Self {
+                fluid,
+                wall,
+                notices: Vec::new(),
+                cached: true,
+                seconds: [start.elapsed().as_secs_f64(), 0.0],
+            });
         }
         let wrong = |source| DriverError::Generation { file: case.scene.file.clone(), source };
         let mut fluid_progress = |step, moved| progress("fluid", step, moved);
         let (fluid, notices) = match blocks(&case.scene) {
             None => {
-                let body = vaso_generation::fluid(&case.vessel, &settings, &mut fluid_progress).map_err(wrong)?;
+                let body =
+                    vaso_generation::fluid(&case.vessel, &settings, &mut fluid_progress).map_err(wrong)?;
                 (body, Vec::new())
             }
             Some(options) => {
@@ -110,7 +117,10 @@ fn key(case: &Case, settings: &Settings) -> CacheKey {
         })
         .integer(settings.steps as u64)
         .integer(settings.seed)
-        .text(&blocks(&case.scene).map_or(String::new(), |b| format!("{:?} {}", b.topology, b.smoothing_sweeps)));
+        .text(
+            &blocks(&case.scene)
+                .map_or(String::new(), |b| format!("{:?} {}", b.topology, b.smoothing_sweeps)),
+        );
     for v in &surface.vertices {
         builder = builder.numbers(&v.to_array());
     }
