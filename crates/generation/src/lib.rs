@@ -3,6 +3,7 @@
 mod error;
 mod extended;
 mod faces;
+mod frame;
 mod lattice;
 mod lumen;
 mod neighbors;
@@ -16,6 +17,7 @@ pub use error::{GenerationError, Warning, warnings};
 pub use lattice::Lattice;
 pub use quality::Quality;
 
+use frame::Frame;
 use glam::DVec3;
 use rayon::prelude::*;
 use region::Region;
@@ -47,9 +49,9 @@ impl Settings {
         Self { spacing, smoothing: 1.3, lattice: Lattice::Cubic, steps: 200, seed: 0 }
     }
 
-    /// Support radius of the kernel 2h \[m\].
-    fn support(&self) -> f64 {
-        2.0 * self.smoothing * self.spacing
+    /// Smoothing length h \[m\].
+    fn smoothing_length(&self) -> f64 {
+        self.smoothing * self.spacing
     }
 }
 
@@ -84,10 +86,13 @@ pub fn fluid(
     error::check(vessel, settings)?;
     let volume = vessel.surface.volume();
     error::particle_count(volume, settings.spacing)?;
-    let region = lumen::Lumen::new(vessel, settings.spacing);
+    let frame = Frame::of(vessel);
+    let vessel = &frame.localize(vessel);
+    let region = lumen::Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     let mut body = fill(&region, volume, settings, progress)?;
     let closed = SignedDistance::closed(vessel);
     body.quality.outside = body.position.par_iter().filter(|x| closed.query(**x).distance >= 0.0).count();
+    frame.restore(&mut body);
     Ok(body)
 }
 
@@ -108,7 +113,9 @@ pub fn rigid_wall(
     let dp = settings.spacing;
     let thickness = WALL_LAYERS * dp;
     error::particle_count(vessel.surface.area() * thickness, dp)?;
-    let region = wall::WallLayer::new(vessel, thickness, settings.support(), dp);
+    let frame = Frame::of(vessel);
+    let vessel = &frame.localize(vessel);
+    let region = wall::WallLayer::new(vessel, thickness, dp, settings.smoothing_length());
     let volume = lattice::volume(&region, 0.5 * dp);
     let mut body = fill(&region, volume, settings, progress)?;
     // Between limbs nearer than a spacing there is no room: what is left in a lumen is taken out.
@@ -119,6 +126,7 @@ pub fn rigid_wall(
     body.quality.volume_error = kept.len() as f64 * dp.powi(3) / volume - 1.0;
     body.position = kept;
     (body.depth, body.normal) = body.position.par_iter().map(|x| region.depth(*x)).unzip();
+    frame.restore(&mut body);
     Ok(body)
 }
 
@@ -129,15 +137,15 @@ fn fill<R: Region>(
     settings: &Settings,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Result<Body, GenerationError> {
-    let &Settings { spacing, smoothing, lattice, steps, seed } = settings;
+    let &Settings { spacing, lattice, steps, seed, .. } = settings;
     let count = error::particle_count(region_volume, spacing)?;
     let mut position = lattice::deepest_sites(region, lattice, spacing, count)
         .ok_or(GenerationError::Empty { spacing, volume: region_volume })?;
-    let kernel = Wendland::new(smoothing * spacing);
+    let kernel = Wendland::new(settings.smoothing_length());
     let volume = region_volume / count as f64;
     let relaxation = Relaxation { region, kernel, spacing, volume };
-    let iterations = relaxation.run(&mut position, steps, seed, progress);
+    let relaxed = relaxation.run(&mut position, steps, seed, progress);
     let mut quality = Quality::measure(&relaxation, &mut position, region_volume);
-    quality.iterations = iterations;
+    (quality.iterations, quality.converged) = (relaxed.iterations, relaxed.converged);
     Ok(Body { position, volume, normal: Vec::new(), depth: Vec::new(), quality })
 }
