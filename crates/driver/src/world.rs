@@ -55,7 +55,7 @@ fn blocks(scene: &Scene) -> Option<multiblock::Options> {
 }
 
 /// Layout version of cached particles; to be raised whenever generation changes its results.
-const CACHE_VERSION: u32 = 2;
+const CACHE_VERSION: u32 = 3;
 const CACHE_KIND: &str = "particles";
 
 impl Bodies {
@@ -156,7 +156,7 @@ fn pack(fluid: &Body, wall: &Body) -> Archive {
         );
         archive.put_integers(
             &format!("{name}.counts"),
-            &[q.count as u64, q.outside as u64, q.iterations as u64],
+            &[q.count as u64, q.outside as u64, q.iterations as u64, u64::from(q.converged)],
         );
     }
     archive
@@ -166,8 +166,8 @@ fn unpack(archive: &Archive) -> Option<(Body, Body)> {
     let body = |name: &str| {
         let [volume_error, nn_min, nn_cv, sum_mean, sum_std, residual, volume_cv] =
             *archive.floats(&format!("{name}.numbers"))?.first_chunk::<7>()?;
-        let [count, outside, iterations] =
-            *archive.integers(&format!("{name}.counts"))?.first_chunk::<3>()?;
+        let [count, outside, iterations, converged] =
+            *archive.integers(&format!("{name}.counts"))?.first_chunk::<4>()?;
         let some = |x: f64| (!x.is_nan()).then_some(x);
         Some(Body {
             position: archive.vectors(&format!("{name}.position"))?,
@@ -186,6 +186,7 @@ fn unpack(archive: &Archive) -> Option<(Body, Body)> {
                 outside: outside as usize,
                 seconds: None,
                 iterations: iterations as usize,
+                converged: converged != 0,
             },
         })
     };

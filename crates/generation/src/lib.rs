@@ -4,6 +4,7 @@ mod ends;
 mod error;
 mod extended;
 mod faces;
+mod frame;
 mod lattice;
 mod lumen;
 pub mod multiblock;
@@ -22,6 +23,7 @@ pub use quality::Quality;
 pub use shell::{Allotment, ShellBody, ShellQuality, ShellReference, ShellSettings, shell};
 pub use wall::{WALL_LAYERS, Wall, rigid_wall, wall};
 
+use frame::Frame;
 use glam::DVec3;
 use rayon::prelude::*;
 use region::Region;
@@ -50,9 +52,9 @@ impl Settings {
         Self { spacing, smoothing: 1.3, lattice: Lattice::Cubic, steps: 200, seed: 0 }
     }
 
-    /// Support radius of the kernel 2h \[m\].
-    fn support(&self) -> f64 {
-        2.0 * self.smoothing * self.spacing
+    /// Smoothing length h \[m\].
+    fn smoothing_length(&self) -> f64 {
+        self.smoothing * self.spacing
     }
 }
 
@@ -88,10 +90,13 @@ pub fn fluid(
     error::check(vessel, settings)?;
     let volume = vessel.surface.volume();
     error::particle_count(volume, settings.spacing)?;
-    let region = lumen::Lumen::new(vessel, settings.spacing);
+    let frame = Frame::of(vessel);
+    let vessel = &frame.localize(vessel);
+    let region = lumen::Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     let mut body = fill(&region, volume, settings, progress)?;
     let closed = SignedDistance::closed(vessel);
     body.quality.outside = body.position.par_iter().filter(|x| closed.query(**x).distance >= 0.0).count();
+    frame.restore(&mut body);
     Ok(body)
 }
 
@@ -102,16 +107,16 @@ fn fill<R: Region>(
     settings: &Settings,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Result<Body, GenerationError> {
-    let &Settings { spacing, smoothing, lattice, steps, seed } = settings;
+    let &Settings { spacing, lattice, steps, seed, .. } = settings;
     let count = error::particle_count(region_volume, spacing)?;
     let mut position = lattice::deepest_sites(region, lattice, spacing, count)
         .ok_or(GenerationError::Empty { spacing, volume: region_volume })?;
-    let kernel = Wendland::new(smoothing * spacing);
+    let kernel = Wendland::new(settings.smoothing_length());
     let volume = region_volume / count as f64;
     let relaxation = Relaxation { region, kernel, spacing, volume };
-    let iterations = relaxation.run(&mut position, steps, seed, progress);
+    let relaxed = relaxation.run(&mut position, steps, seed, progress);
     let mut quality = Quality::measure(&relaxation, &mut position, region_volume);
-    quality.iterations = iterations;
+    (quality.iterations, quality.converged) = (relaxed.iterations, relaxed.converged);
     let volume = vec![volume; position.len()];
     Ok(Body { position, volume, normal: Vec::new(), depth: Vec::new(), quality })
 }

@@ -6,24 +6,23 @@ use crate::region::Region;
 use glam::DVec3;
 use vaso_geometry::Vessel;
 
-/// By how much the wall is drawn out beyond the caps, in spacings: its distance is then smooth where
-/// wall and cap meet, whatever the table mixes.
-const EXTENSION: f64 = 2.0;
-
 /// The lumen of a vessel, its wall and each cap a face of its own.
 pub(crate) struct Lumen<'a> {
     vessel: &'a Vessel,
     wall: ExtendedLumen,
     spacing: f64,
+    /// Smoothing length \[m\].
+    h: f64,
     bounds: (DVec3, DVec3),
 }
 
 impl<'a> Lumen<'a> {
-    /// Lumen for particles of `spacing` \[m\].
-    pub(crate) fn new(vessel: &'a Vessel, spacing: f64) -> Self {
-        let wall = ExtendedLumen::new(vessel, EXTENSION * spacing, spacing, spacing);
+    /// Lumen for particles of `spacing` \[m\] and smoothing length `h` \[m\].
+    pub(crate) fn new(vessel: &'a Vessel, spacing: f64, h: f64) -> Self {
+        // Drawn out by a support, the wall is smooth where it meets a cap, and its end is felt nowhere.
+        let wall = ExtendedLumen::new(vessel, 2.0 * h, spacing, spacing);
         let (low, high) = vessel.surface.bounds();
-        Self { vessel, wall, spacing, bounds: (low - spacing, high + spacing) }
+        Self { vessel, wall, spacing, h, bounds: (low - spacing, high + spacing) }
     }
 
     /// Depth below each cap that `x` is at most `reach` \[m\] away from, and its normal.
@@ -45,7 +44,7 @@ impl<'a> Lumen<'a> {
 
     fn faces_at(&self, x: DVec3, (wall, outward): (f64, DVec3)) -> Faces {
         let mut faces = Faces::new();
-        faces.push(-wall, outward);
+        faces.push_shaped(x, (-wall, outward), self.h, |y| self.wall.sample(y).0);
         for (depth, normal) in self.caps(x, 4.0 * self.spacing) {
             faces.push(depth, normal);
         }

@@ -37,6 +37,10 @@ pub struct Quality {
     pub seconds: Option<f64>,
     /// Relaxation steps made.
     pub iterations: usize,
+    /// Whether the relaxation ended by itself: with the particles at rest (mean displacement in a step below
+    /// a thousandth of the spacing), or with a residual that falls no more. Otherwise it was cut off at the
+    /// most steps allowed.
+    pub converged: bool,
 }
 
 /// What one particle adds to the report.
@@ -49,7 +53,7 @@ struct Sample {
 
 impl Quality {
     /// Measures particles relaxed by `relaxation` in a region of volume `region_volume` \[m^3\]; puts
-    /// them in the order of the search grid. `outside` and `iterations` are left at zero.
+    /// them in the order of the search grid. `outside` and `iterations` are left at zero, `converged` at false.
     pub(crate) fn measure<R: Region>(
         relaxation: &Relaxation<'_, R>,
         position: &mut Vec<DVec3>,
@@ -65,7 +69,8 @@ impl Quality {
             let distance = |&j: &u32| position[j as usize].distance(x);
             let faces = region.exact_faces(x);
             let deep = faces.clearance() > kernel.support();
-            let gradient = relaxation.gradient_sum(x, row, position, 0.0) + faces.missing_gradient(&kernel);
+            let gradient =
+                relaxation.gradient_sum(x, row, position, 0.0) + relaxation.missing_gradient(&faces);
             let sum = || kernel.value(0.0) + row.iter().map(|j| kernel.value(distance(j))).sum::<f64>();
             Sample {
                 nearest: row.iter().map(distance).fold(kernel.support(), f64::min) / spacing,
@@ -97,6 +102,7 @@ impl Quality {
             outside: 0,
             seconds: None,
             iterations: 0,
+            converged: false,
         }
     }
 }

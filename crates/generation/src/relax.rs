@@ -6,7 +6,7 @@
 //! too close push harder than the kernel says: its gradient falls off below 0.65 spacings, which would
 //! leave a few pairs stuck together.
 
-use crate::faces::Faces;
+use crate::faces::{Faces, LAYER};
 use crate::neighbors::{CHUNK, Neighbors};
 use crate::random;
 use crate::region::Region;
@@ -14,26 +14,36 @@ use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::Wendland;
 
-/// Step factor; lattices are stable up to 0.36 at h = 1.3 dp and 0.21 at h = dp.
-const ALPHA: f64 = 0.2;
+/// Step factor as a share of the one up to which lattices are stable, and its largest value.
+const STABLE_SHARE: f64 = 0.7;
+const MOST_ALPHA: f64 = 0.25;
 /// Largest displacement in a step, in spacings.
 const STEP_CAP: f64 = 0.1;
-/// Half-width of the random start displacement, in spacings: a perfect lattice would stay as it is.
-const JITTER: f64 = 0.05;
-/// Distance every particle keeps from each face, in spacings: half the distance between close-packed
-/// layers, sqrt(2/3) 2^(1/6) / 2, which is how particles arrange along a face.
-const GAP: f64 = 0.458;
+/// Half-width of the random start displacement, in spacings. A perfect lattice would stay as it is, and with
+/// less than this the cubic one, which is no state of rest, takes longer to give way.
+const JITTER: f64 = 0.2;
+/// Distance every particle keeps from each face, in spacings.
+const GAP: f64 = 0.5 * LAYER;
 /// Distance below which pairs push harder, in spacings, by the fourth power of how much closer they are.
 const CLOSE: f64 = 0.85;
 /// Reach of the neighbour lists beyond the support, in spacings.
 const SKIN: f64 = 0.3;
 /// Mean displacement in a step at which the particles count as at rest, in spacings.
 const AT_REST: f64 = 1e-3;
-/// Steps over which the residual must fall, and by which share, to go on.
+/// Steps within which the residual must fall, and by which share, to go on.
 const PATIENCE: (usize, f64) = (50, 0.01);
 /// Steps at the end that ask for the exact faces: bounding by them once and for all would push particles
 /// into others where the table rounds off an edge.
 const POLISH: usize = 20;
+
+/// How a relaxation ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Relaxed {
+    /// Steps made.
+    pub(crate) iterations: usize,
+    /// Whether the particles came to rest, or to where the residual falls no more, within the steps allowed.
+    pub(crate) converged: bool,
+}
 
 /// What is relaxed: a region, and the kernel and volume of its particles.
 pub(crate) struct Relaxation<'a, R> {
@@ -66,7 +76,7 @@ struct Partial {
 }
 
 impl<R: Region> Relaxation<'_, R> {
-    /// Relaxes for at most `steps` steps and returns how many were made.
+    /// Relaxes until the particles are at rest, for at most `steps` steps.
     ///
     /// `progress` is told the step and the mean displacement in spacings. The particles end in the
     /// order of the search grid, not in that of the start.
@@ -76,7 +86,7 @@ impl<R: Region> Relaxation<'_, R> {
         steps: usize,
         seed: u64,
         progress: &mut dyn FnMut(usize, f64),
-    ) -> usize {
+    ) -> Relaxed {
         self.run_among(position, &[], steps, seed, progress)
     }
 
@@ -90,7 +100,7 @@ impl<R: Region> Relaxation<'_, R> {
         steps: usize,
         seed: u64,
         progress: &mut dyn FnMut(usize, f64),
-    ) -> usize {
+    ) -> Relaxed {
         let dp = self.spacing;
         movable.par_iter_mut().enumerate().for_each(|(i, x)| {
             *x += JITTER * dp * random::unit_box(seed, i);
@@ -111,18 +121,18 @@ impl<R: Region> Relaxation<'_, R> {
         self.list(&mut listed, position);
         let mut next = position.clone();
         let mut residuals = Vec::with_capacity(steps);
-        let mut last = steps;
+        let (mut last, mut converged) = (steps, false);
         for step in 1..=steps {
             let sums = self.step(&listed, position, &mut next, step + POLISH > last);
             std::mem::swap(position, &mut next);
             let mean = sums.displacement / (n_movable as f64 * dp);
             progress(step, mean);
             residuals.push(sums.residual);
+            if !converged && (mean < AT_REST || stagnant(&residuals)) {
+                (last, converged) = (last.min(step + POLISH), true);
+            }
             if step == last {
                 break;
-            }
-            if mean < AT_REST || stagnant(&residuals) {
-                last = last.min(step + POLISH);
             }
             if sums.drift > (0.5 * skin).powi(2) {
                 self.list(&mut listed, position);
@@ -130,7 +140,7 @@ impl<R: Region> Relaxation<'_, R> {
         }
         let moved = position.iter().zip(&listed.fixed).filter(|(_, fixed)| !**fixed);
         movable.extend(moved.map(|(x, _)| *x));
-        last
+        Relaxed { iterations: last, converged }
     }
 
     /// Sorts the particles and makes their neighbour lists.
@@ -178,13 +188,19 @@ impl<R: Region> Relaxation<'_, R> {
         let faces = |x| if exact { self.near_faces(x) } else { self.region.faces(x) };
         let felt = if deep { Faces::new() } else { faces(x) };
         let (h, cap) = (self.kernel.h, STEP_CAP * self.spacing);
-        let gradient = self.gradient_sum(x, row, position, CLOSE) + felt.missing_gradient(&self.kernel);
-        let push = -2.0 * ALPHA * h * h * gradient;
+        let gradient = self.gradient_sum(x, row, position, CLOSE) + self.missing_gradient(&felt);
+        let push = -2.0 * self.step_factor() * h * h * gradient;
         let moved = x + push * (cap / push.length()).min(1.0);
         // A step is shorter than the cap, so only particles nearer than that can come too close.
         let may_need_bounding = felt.clearance() < GAP * self.spacing + 1.5 * cap;
         let moved = if may_need_bounding { self.bound(moved, faces) } else { moved };
         (moved, h * h * gradient.length_squared())
+    }
+
+    /// Step factor alpha; its limit was found as 0.21, 0.268 and 0.357 for h of 1, 1.15 and 1.3 spacings.
+    fn step_factor(&self) -> f64 {
+        let limit = 0.21 + 0.49 * (self.kernel.h / self.spacing - 1.0);
+        (STABLE_SHARE * limit).min(MOST_ALPHA)
     }
 
     /// Kernel gradient sum at `x` \[1/m\] over the particles of `row`; pairs nearer than `close` spacings
@@ -201,6 +217,11 @@ impl<R: Region> Relaxation<'_, R> {
             sum += (u * u * u * stiff * stiff) * d;
         }
         -self.volume * self.kernel.gradient_scale() * sum
+    }
+
+    /// What `gradient_sum` lacks of the particles beyond `faces` \[1/m\].
+    pub(crate) fn missing_gradient(&self, faces: &Faces) -> DVec3 {
+        faces.missing_gradient(&self.kernel, self.spacing)
     }
 
     /// Moves `x` away from the faces it is too close to; twice, for the corners.
@@ -224,8 +245,9 @@ impl<R: Region> Relaxation<'_, R> {
 /// Whether the residual has stopped falling.
 fn stagnant(residuals: &[f64]) -> bool {
     let (steps, share) = PATIENCE;
-    let n = residuals.len();
-    n > steps && (residuals[n - 1] - residuals[n - 1 - steps]).abs() < share * residuals[n - 1 - steps]
+    let Some(earlier) = residuals.len().checked_sub(steps).filter(|n| *n > 0) else { return false };
+    let least = |part: &[f64]| part.iter().copied().fold(f64::INFINITY, f64::min);
+    least(&residuals[earlier..]) > (1.0 - share) * least(&residuals[..earlier])
 }
 
 #[cfg(test)]
@@ -263,6 +285,20 @@ mod tests {
 
     fn nearest(x: DVec3, others: &[DVec3]) -> f64 {
         others.iter().map(|y| y.distance(x)).filter(|r| *r > 0.0).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn stagnation_is_no_new_least_for_fifty_steps() {
+        let falling: Vec<f64> = (0..200).map(|k| f64::powi(0.999, k)).collect();
+        assert!(!stagnant(&falling));
+        // A passing rise is none.
+        let hump: Vec<f64> = (0..80).map(|k| if (30..60).contains(&k) { 2.0 } else { falling[k] }).collect();
+        assert!(!stagnant(&hump));
+        let mut level = falling[..60].to_vec();
+        level.extend([falling[60]; 30]);
+        assert!(!stagnant(&level));
+        level.extend([falling[60]; 20]);
+        assert!(stagnant(&level));
     }
 
     /// Half of a relaxed set is put back to the lattice and relaxed among the other half.

@@ -22,6 +22,7 @@ pub use outline::Outline;
 pub use topology::Topology;
 
 use crate::error::{self, GenerationError};
+use crate::frame::Frame;
 use crate::lumen::Lumen;
 use crate::quality::Quality;
 use crate::relax::Relaxation;
@@ -128,11 +129,14 @@ pub fn fluid(
 ) -> Result<Multiblock, GenerationError> {
     error::check(vessel, settings)?;
     error::particle_count(vessel.surface.volume(), settings.spacing)?;
+    let frame = Frame::of(vessel);
+    let vessel = &frame.localize(vessel);
     let wall = SignedDistance::wall(vessel);
     let maker = Maker { wall: &wall, spacing: settings.spacing, sweeps: options.smoothing_sweeps };
     let lines = Centerlines::trace(vessel).unwrap_or_default();
     let mut work = Work {
         vessel,
+        frame: &frame,
         lines: &lines,
         maker,
         library: Library::new(options.topology),
@@ -152,7 +156,7 @@ pub fn fluid(
     report.missed_projections = fillings.iter().flat_map(|f| &f.stretches).map(|s| s.missed).sum();
     let mut iterations = 0;
     if !is_whole {
-        let lumen = Lumen::new(vessel, settings.spacing);
+        let lumen = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
         let zone = Zone { lumen: &lumen, blocks: tubes(&limbs, &fillings) };
         let left = vessel.surface.volume() - volume.iter().sum::<f64>();
         let (extra, steps) = fill_zone(&zone, left, &position, settings, progress)?;
@@ -162,7 +166,7 @@ pub fn fluid(
         volume.resize(position.len() + extra.len(), left / extra.len().max(1) as f64);
         position.extend(extra);
     }
-    let lumen = Lumen::new(vessel, settings.spacing);
+    let lumen = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     report.pushed_particles = spread::spread(&lumen, settings.spacing, &mut position, &mut volume);
     let mean = volume.iter().sum::<f64>() / volume.len() as f64;
     report.smallest_cell = volume.iter().fold(f64::INFINITY, |a, b| a.min(*b)) / mean;
@@ -183,7 +187,7 @@ fn quality(
     volume: &mut Vec<f64>,
     iterations: usize,
 ) -> Quality {
-    let region = Lumen::new(vessel, settings.spacing);
+    let region = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     let kernel = Wendland::new(settings.smoothing * settings.spacing);
     let mean = volume.iter().sum::<f64>() / volume.len() as f64;
     let spread = (volume.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / volume.len() as f64).sqrt() / mean;
@@ -219,7 +223,7 @@ fn fill_zone(
     let fixed: Vec<DVec3> = blocks.par_iter().copied().filter(|x| zone.outside_blocks(*x) > -reach).collect();
     let relaxation = Relaxation { region: zone, kernel, spacing, volume: volume / count as f64 };
     let made = relaxation.run_among(&mut position, &fixed, steps, seed, progress);
-    Ok((position, made))
+    Ok((position, made.iterations))
 }
 
 /// Gives up layers that reach into the blocks of another limb.
@@ -278,6 +282,7 @@ fn add_tubes(surface: &mut Surface, limb: &Limb<'_>, filling: &Filling) {
 /// The laying of blocks.
 struct Work<'a> {
     vessel: &'a Vessel,
+    frame: &'a Frame,
     lines: &'a Centerlines,
     maker: Maker<'a>,
     library: Library,
@@ -314,7 +319,7 @@ impl<'a> Work<'a> {
                     filled
                 }
                 Err(reason) => {
-                    let at = 1e3 * self.lines.junctions[number].carina;
+                    let at = 1e3 * self.frame.place(self.lines.junctions[number].carina);
                     self.report.unblocked_junctions.push(format!(
                         "the junction at ({:.1}, {:.1}, {:.1}) mm is filled by the lattice: {reason}",
                         at.x, at.y, at.z

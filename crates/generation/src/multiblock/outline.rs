@@ -3,6 +3,7 @@
 use super::blocks::Stretch;
 use super::limb::Route;
 use super::tfi::Grid;
+use crate::frame::Frame;
 use glam::DVec3;
 
 /// Lines to draw, each a row of points \[m\].
@@ -31,6 +32,13 @@ impl Outline {
             }
         }
         outline
+    }
+
+    /// Moves lines made in a frame to where the vessel is.
+    pub(super) fn restore(&mut self, frame: &Frame) {
+        for line in [&mut self.edges, &mut self.sections, &mut self.faces].into_iter().flatten() {
+            frame.restore_points(line, &mut []);
+        }
     }
 
     fn add_block(&mut self, block: &Grid<DVec3>) {

@@ -10,6 +10,7 @@ mod sheet;
 pub use allotment::Allotment;
 pub use quality::ShellQuality;
 
+use crate::frame::Frame;
 use crate::{GenerationError, ends, error, extended};
 use glam::DVec3;
 use plane_kernel::PlaneKernel;
@@ -113,6 +114,17 @@ pub fn shell(
     progress: &mut dyn FnMut(usize, f64),
 ) -> Result<ShellBody, GenerationError> {
     check(vessel, settings)?;
+    let frame = Frame::of(vessel);
+    let mut body = shell_of(&frame.localize(vessel), settings, progress)?;
+    frame.restore_points(&mut body.position, &mut body.normal);
+    Ok(body)
+}
+
+fn shell_of(
+    vessel: &Vessel,
+    settings: &ShellSettings,
+    progress: &mut dyn FnMut(usize, f64),
+) -> Result<ShellBody, GenerationError> {
     let &ShellSettings { spacing, smoothing, steps, seed, .. } = settings;
     let drawn_out = (settings.collar > 0.0).then(|| extended::with_collars(vessel, settings.collar, spacing));
     let vessel = drawn_out.as_ref().unwrap_or(vessel);

@@ -14,11 +14,12 @@ pub(super) struct ClosedLayer {
     table: DistanceGrid,
     bounds: (DVec3, DVec3),
     thickness: f64,
+    smoothing_length: f64,
 }
 
 impl ClosedLayer {
-    /// Layer of `thickness` \[m\] for particles of `spacing` \[m\].
-    pub(super) fn new(vessel: &Vessel, thickness: f64, spacing: f64) -> Self {
+    /// Layer of `thickness` \[m\] for particles of `spacing` and smoothing length `h` \[m\].
+    pub(super) fn new(vessel: &Vessel, thickness: f64, spacing: f64, h: f64) -> Self {
         let (low, high) = vessel.surface.bounds();
         let bounds = (low - thickness - spacing, high + thickness + spacing);
         let exact = SignedDistance::closed(vessel);
@@ -28,17 +29,18 @@ impl ClosedLayer {
             spacing,
             thickness + MARGIN * spacing,
         );
-        Self { exact, table, bounds, thickness }
+        Self { exact, table, bounds, thickness, smoothing_length: h }
     }
 
     fn level_at(&self, depth: f64) -> f64 {
         (-depth).max(depth - self.thickness)
     }
 
-    fn faces_at(&self, (depth, outward): (f64, DVec3)) -> Faces {
+    fn faces_at(&self, x: DVec3, (depth, outward): (f64, DVec3)) -> Faces {
         let mut faces = Faces::new();
-        faces.push(depth, -outward);
-        faces.push(self.thickness - depth, outward);
+        let (h, thickness) = (self.smoothing_length, self.thickness);
+        faces.push_shaped(x, (depth, -outward), h, |y| -self.table.sample(y).0);
+        faces.push_shaped(x, (thickness - depth, outward), h, |y| self.table.sample(y).0 - thickness);
         faces
     }
 
@@ -62,10 +64,10 @@ impl Region for ClosedLayer {
     }
 
     fn faces(&self, x: DVec3) -> Faces {
-        self.faces_at(self.table.sample(x))
+        self.faces_at(x, self.table.sample(x))
     }
 
     fn exact_faces(&self, x: DVec3) -> Faces {
-        self.faces_at(self.query(x))
+        self.faces_at(x, self.query(x))
     }
 }

@@ -23,13 +23,15 @@ pub(crate) struct CollaredLayer<'a> {
     lumen: ExtendedLumen,
     thickness: f64,
     spacing: f64,
+    smoothing_length: f64,
 }
 
 impl<'a> CollaredLayer<'a> {
-    /// Layer of `thickness` \[m\] with collars of length `collar` \[m\] for particles of `spacing` \[m\].
-    pub(crate) fn new(vessel: &'a Vessel, thickness: f64, collar: f64, spacing: f64) -> Self {
+    /// Layer of `thickness` \[m\] with collars of length `collar` \[m\] for particles of `spacing` and smoothing
+    /// length `h` \[m\].
+    pub(crate) fn new(vessel: &'a Vessel, thickness: f64, collar: f64, spacing: f64, h: f64) -> Self {
         let lumen = ExtendedLumen::new(vessel, collar + MARGIN * spacing, thickness + spacing, spacing);
-        Self { vessel, lumen, thickness, spacing }
+        Self { vessel, lumen, thickness, spacing, smoothing_length: h }
     }
 
     /// Depth in the wall at `x` \[m\], and the unit normal away from the lumen.
@@ -86,8 +88,9 @@ impl<'a> CollaredLayer<'a> {
     fn faces_at(&self, x: DVec3, distance: (f64, DVec3), tolerance: f64) -> Faces {
         let (depth, outward) = distance;
         let mut faces = Faces::new();
-        faces.push(depth, -outward);
-        faces.push(self.thickness - depth, outward);
+        let (h, thickness) = (self.smoothing_length, self.thickness);
+        faces.push_shaped(x, (depth, -outward), h, |y| -self.lumen.sample(y).0);
+        faces.push_shaped(x, (thickness - depth, outward), h, |y| self.lumen.sample(y).0 - thickness);
         for (before, normal) in self.ends(x, distance, tolerance) {
             faces.push(before, normal);
         }

@@ -4,6 +4,7 @@ mod closed;
 mod collared;
 
 use crate::ends::{self, Ends};
+use crate::frame::Frame;
 use crate::region::Region;
 use crate::{Body, GenerationError, Settings, Warning, error, fill, lattice};
 use closed::ClosedLayer;
@@ -52,7 +53,9 @@ pub fn wall(
     ends: Ends,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Result<Wall, GenerationError> {
-    let body = match ends {
+    let frame = Frame::of(vessel);
+    let vessel = &frame.localize(vessel);
+    let mut body = match ends {
         Ends::Collar { length } => collared(vessel, settings, thickness, length, progress)?,
         Ends::ClosestCap | Ends::Boxes => opened(vessel, settings, thickness, ends, progress)?,
     };
@@ -64,6 +67,7 @@ pub fn wall(
     let is_shared = |(x, normal): (&DVec3, &DVec3)| closed.facing(*x, *normal, thickness).is_some();
     let shared = body.position.par_iter().zip(&body.normal).filter(|pair| is_shared(*pair)).count();
     let shared = shared as f64 / body.position.len().max(1) as f64;
+    frame.restore(&mut body);
     Ok(Wall { body, clamped, shared, thickness })
 }
 
@@ -80,7 +84,11 @@ pub fn rigid_wall(
     settings: &Settings,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Result<Body, GenerationError> {
-    collared(vessel, settings, WALL_LAYERS * settings.spacing, settings.support(), progress)
+    let frame = Frame::of(vessel);
+    let (thickness, collar) = (WALL_LAYERS * settings.spacing, 2.0 * settings.smoothing_length());
+    let mut body = collared(&frame.localize(vessel), settings, thickness, collar, progress)?;
+    frame.restore(&mut body);
+    Ok(body)
 }
 
 /// A wall that goes on straight for `collar` \[m\] beyond each opening, relaxed with its ends.
@@ -96,7 +104,7 @@ fn collared(
         return Err(GenerationError::Setting { key: "collar", value: collar, allowed: "0 m or more" });
     }
     let dp = settings.spacing;
-    let region = CollaredLayer::new(vessel, thickness, collar, dp);
+    let region = CollaredLayer::new(vessel, thickness, collar, dp, settings.smoothing_length());
     let volume = lattice::volume(&region, 0.5 * dp);
     let mut body = fill(&region, volume, settings, progress)?;
     // Between limbs nearer than a spacing there is no room: what is left in a lumen is taken out.
@@ -121,7 +129,7 @@ fn opened(
 ) -> Result<Body, GenerationError> {
     check(vessel, settings, thickness)?;
     let dp = settings.spacing;
-    let region = ClosedLayer::new(vessel, thickness, dp);
+    let region = ClosedLayer::new(vessel, thickness, dp, settings.smoothing_length());
     let volume = lattice::volume(&region, 0.5 * dp);
     let mut body = fill(&region, volume, settings, progress)?;
     let lateral = thickness + ends::LATERAL * dp;
