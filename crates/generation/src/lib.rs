@@ -115,8 +115,8 @@ fn fill<R: Region>(
     let volume = region_volume / count as f64;
     let relaxation = Relaxation { region, kernel, spacing, volume };
     let relaxed = relaxation.run(&mut position, steps, seed, progress);
-    let mut quality = Quality::measure(&relaxation, &mut position, region_volume);
+    let mut volume = vec![volume; position.len()];
+    let mut quality = Quality::measure(&relaxation, &mut position, &mut volume, region_volume);
     (quality.iterations, quality.converged) = (relaxed.iterations, relaxed.converged);
-    let volume = vec![volume; position.len()];
     Ok(Body { position, volume, normal: Vec::new(), depth: Vec::new(), quality })
 }

@@ -12,8 +12,9 @@ use serde::{Deserialize, Serialize};
 pub struct Quality {
     /// Number of particles.
     pub count: usize,
-    /// Relative difference of `count spacing^3` from the volume of the region. The particle volume is
-    /// the region volume over `count`, so the volumes used by a solver add up without this error.
+    /// Of a relaxed body, the relative difference of `count spacing^3` from the volume of the region; the particle
+    /// volume is the region volume over `count`, so the volumes used by a solver add up without this error. Of a
+    /// multiblock body, that of the sum of the cells.
     pub volume_error: f64,
     /// Smallest distance between two particles, in spacings.
     pub nearest_neighbor_min: f64,
@@ -29,7 +30,7 @@ pub struct Quality {
     /// Root mean square of `h |G|` over all particles, G the kernel gradient sum completed by what the
     /// faces cut off.
     pub gradient_residual_rms: f64,
-    /// Coefficient of variation of the particle volumes: zero, as all volumes of a body are equal.
+    /// Coefficient of variation of the particle volumes: zero up to rounding where all are equal, as of a relaxed body.
     pub volume_cv: f64,
     /// Particles outside their region: fluid outside the closed surface, wall inside the lumen.
     pub outside: usize,
@@ -52,30 +53,36 @@ struct Sample {
 }
 
 impl Quality {
-    /// Measures particles relaxed by `relaxation` in a region of volume `region_volume` \[m^3\]; puts
-    /// them in the order of the search grid. `outside` and `iterations` are left at zero, `converged` at false.
+    /// Measures particles in the region of `relaxation`, of volume `region_volume` \[m^3\]; puts them and their
+    /// volumes \[m^3\] in the order of the search grid. `outside` and `iterations` are left at zero, `converged`
+    /// at false.
     pub(crate) fn measure<R: Region>(
         relaxation: &Relaxation<'_, R>,
         position: &mut Vec<DVec3>,
+        volume: &mut Vec<f64>,
         region_volume: f64,
     ) -> Self {
-        let Relaxation { region, kernel, spacing, volume } = *relaxation;
+        let Relaxation { region, kernel, spacing, .. } = *relaxation;
         let mut neighbors = Neighbors::new(region.bounds(), kernel.support());
-        neighbors.rebuild(position);
-        let position = &*position;
+        *volume = neighbors.rebuild(position).iter().map(|&k| volume[k as usize]).collect();
+        let (position, volume) = (&*position, &*volume);
         let lattice_sum = kernel.lattice_sum(spacing);
         let sample = |i: usize, row: &[u32]| {
             let x = position[i];
             let distance = |&j: &u32| position[j as usize].distance(x);
             let faces = region.exact_faces(x);
             let deep = faces.clearance() > kernel.support();
-            let gradient =
-                relaxation.gradient_sum(x, row, position, 0.0) + relaxation.missing_gradient(&faces);
-            let sum = || kernel.value(0.0) + row.iter().map(|j| kernel.value(distance(j))).sum::<f64>();
+            let push = |&j: &u32| {
+                let d = x - position[j as usize];
+                volume[j as usize] * kernel.derivative(d.length()) * d.normalize_or_zero()
+            };
+            let gradient = row.iter().map(push).sum::<DVec3>() + relaxation.missing_gradient(&faces);
+            let weight = |j: &u32| volume[*j as usize] * kernel.value(distance(j));
+            let sum = || volume[i] * kernel.value(0.0) + row.iter().map(weight).sum::<f64>();
             Sample {
                 nearest: row.iter().map(distance).fold(kernel.support(), f64::min) / spacing,
                 residual: kernel.h * gradient.length(),
-                kernel_sum: deep.then(|| volume * sum() / lattice_sum),
+                kernel_sum: deep.then(|| sum() / lattice_sum),
             }
         };
         let samples: Vec<Sample> = neighbors
@@ -89,6 +96,7 @@ impl Quality {
         let nearest = Statistics::of(samples.iter().map(|s| s.nearest));
         let kernel_sum = Statistics::of(samples.iter().filter_map(|s| s.kernel_sum));
         let residual = Statistics::of(samples.iter().map(|s| s.residual * s.residual));
+        let volumes = Statistics::of(volume.iter().copied());
         let has_bulk = kernel_sum.n > 0;
         Self {
             count: position.len(),
@@ -98,7 +106,7 @@ impl Quality {
             kernel_sum_mean: has_bulk.then(|| kernel_sum.mean()),
             kernel_sum_std: has_bulk.then(|| kernel_sum.deviation()),
             gradient_residual_rms: residual.mean().sqrt(),
-            volume_cv: 0.0,
+            volume_cv: volumes.deviation() / volumes.mean(),
             outside: 0,
             seconds: None,
             iterations: 0,

@@ -8,21 +8,21 @@ const FACES: [[usize; 4]; 6] =
 
 /// Volume \[m^3\] and centroid \[m\] of a cell, and the volume of the least of its six pyramids.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cell {
+pub(super) struct Cell {
     /// Volume \[m^3\].
-    pub volume: f64,
+    pub(super) volume: f64,
     /// Centroid \[m\].
-    pub centroid: DVec3,
+    pub(super) centroid: DVec3,
     /// Volume of the smallest pyramid over a face with its tip in the middle \[m^3\]; a cell with one that is not
     /// positive is inverted.
-    pub least: f64,
+    pub(super) least: f64,
 }
 
 /// A cell by its corners, corner `c` at the index whose bits are `c`, and for faces that are known not to be
 /// flat a point in their middle, in the order lower and upper face of each direction.
 ///
 /// Each face is a fan about its middle, so that neighbours that share a face share its volume exactly.
-pub fn cell(corner: &[DVec3; 8], middle: &[Option<DVec3>; 6]) -> Cell {
+pub(super) fn cell(corner: &[DVec3; 8], middle: &[Option<DVec3>; 6]) -> Cell {
     let tip = corner.iter().sum::<DVec3>() / 8.0;
     let (mut volume, mut moment, mut least) = (0.0, DVec3::ZERO, f64::INFINITY);
     for (face, given) in FACES.iter().zip(middle) {

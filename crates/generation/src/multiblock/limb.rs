@@ -148,7 +148,8 @@ fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
 /// The stretches of a route between two lengths in which every section is whole and none meets the next.
 pub(super) fn runs(route: &Route<'_>, from: f64, to: f64, spacing: f64) -> Vec<Run> {
     let n = (STATIONS * (to - from) / spacing).ceil().max(1.0) as usize;
-    let arc = |k: usize| from + (to - from) * k as f64 / n as f64;
+    // The last station is the end to the last bit.
+    let arc = |k: usize| if k == n { to } else { from + (to - from) * k as f64 / n as f64 };
     let sections: Vec<Option<Section>> = (0..=n).into_par_iter().map(|k| route.section(arc(k))).collect();
     let mut runs: Vec<Run> = Vec::new();
     let mut is_open = false;

@@ -9,7 +9,7 @@ use glam::DVec2;
 /// ```text
 /// alpha x_uu - 2 beta x_uv + gamma x_vv = 0,   alpha = |x_v|^2, beta = x_u . x_v, gamma = |x_u|^2
 /// ```
-pub fn smooth(face: &mut Grid<DVec2>, sweeps: usize) {
+pub(super) fn smooth(face: &mut Grid<DVec2>, sweeps: usize) {
     let [ni, nj, _] = face.cells();
     for _ in 0..sweeps {
         for j in 1..nj {

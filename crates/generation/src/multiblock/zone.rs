@@ -3,8 +3,12 @@
 use crate::faces::Faces;
 use crate::lumen::Lumen;
 use crate::region::Region;
+use crate::relax::Relaxation;
+use crate::{GenerationError, Settings, lattice};
 use glam::DVec3;
-use vaso_geometry::{SignedDistance, Surface};
+use rayon::prelude::*;
+use vaso_geometry::SignedDistance;
+use vaso_kernels::Wendland;
 
 /// The lumen less the stretches filled by blocks.
 pub(super) struct Zone<'a> {
@@ -46,44 +50,26 @@ impl Region for Zone<'_> {
     }
 }
 
-/// A closed tube through rings of equally many points, counter-clockwise about its direction, with the middle
-/// of each end.
-pub(super) fn add_tube(surface: &mut Surface, rings: &[Vec<DVec3>], ends: [DVec3; 2]) {
-    let first = surface.vertices.len() as u32;
-    let n = rings[0].len() as u32;
-    surface.vertices.extend(rings.iter().flatten());
-    let index = |ring: u32, k: u32| first + ring * n + k % n;
-    let last = rings.len() as u32 - 1;
-    for ring in 0..last {
-        for k in 0..n {
-            let [a, b, c, d] =
-                [index(ring, k), index(ring, k + 1), index(ring + 1, k), index(ring + 1, k + 1)];
-            surface.triangles.extend([[a, b, d], [a, d, c]]);
-        }
+/// Fills what blocks left over, `volume` \[m^3\], with particles relaxed among theirs.
+pub(super) fn fill(
+    zone: &Zone<'_>,
+    volume: f64,
+    blocks: &[DVec3],
+    settings: &Settings,
+    progress: &mut dyn FnMut(usize, f64),
+) -> Result<(Vec<DVec3>, usize), GenerationError> {
+    let &Settings { spacing, smoothing, lattice, steps, seed } = settings;
+    let count = (volume / spacing.powi(3)).round().max(0.0) as usize;
+    if count == 0 {
+        return Ok((Vec::new(), 0));
     }
-    let middle = surface.vertices.len() as u32;
-    surface.vertices.extend(ends);
-    for k in 0..n {
-        surface.triangles.push([middle, index(0, k + 1), index(0, k)]);
-        surface.triangles.push([middle + 1, index(last, k), index(last, k + 1)]);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tube_is_closed_and_points_outwards() {
-        let ring = |z: f64| -> Vec<DVec3> {
-            (0..4).map(|k| DVec3::new([1.0, 0.0, -1.0, 0.0][k], [0.0, 1.0, 0.0, -1.0][k], z)).collect()
-        };
-        let mut surface = Surface { vertices: Vec::new(), triangles: Vec::new() };
-        add_tube(&mut surface, &[ring(0.0), ring(1.0), ring(3.0)], [DVec3::ZERO, 3.0 * DVec3::Z]);
-        add_tube(&mut surface, &[ring(5.0), ring(6.0)], [5.0 * DVec3::Z, 6.0 * DVec3::Z]);
-        assert!((surface.volume() - 2.0 * 4.0).abs() < 1e-12);
-        let distance = SignedDistance::of(&surface);
-        assert!((distance.query(DVec3::new(0.0, 0.0, 4.0)).distance - 1.0).abs() < 1e-12);
-        assert!(distance.query(DVec3::new(0.1, 0.1, 1.5)).distance < 0.0);
-    }
+    let mut position = lattice::deepest_sites(zone, lattice, spacing, count)
+        .ok_or(GenerationError::Empty { spacing, volume })?;
+    let kernel = Wendland::new(smoothing * spacing);
+    // Blocks deeper than this below their surface are out of reach.
+    let reach = 2.0 * kernel.support();
+    let fixed: Vec<DVec3> = blocks.par_iter().copied().filter(|x| zone.outside_blocks(*x) > -reach).collect();
+    let relaxation = Relaxation { region: zone, kernel, spacing, volume: volume / count as f64 };
+    let made = relaxation.run_among(&mut position, &fixed, steps, seed, progress);
+    Ok((position, made.iterations))
 }

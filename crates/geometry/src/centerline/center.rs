@@ -12,7 +12,7 @@ const REACH: f64 = 3.0;
 /// Most by which the border may be farther on one ray than on the next: beyond, it is another branch.
 const JUMP: f64 = 1.5;
 /// Rounds of moving and smoothing.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 8;
 /// Most by which a point moves in a round, and width of the smoothing, in distances from the wall.
 const MOVE: f64 = 0.3;
 const WIDTH: f64 = 0.4;
