@@ -36,6 +36,7 @@ impl ExtendedLumen {
     }
 
     /// Distance \[m\], negative inside, and its gradient, from the table.
+    #[inline]
     pub(crate) fn sample(&self, x: DVec3) -> (f64, DVec3) {
         self.table.sample(x)
     }

@@ -8,8 +8,8 @@ const CAPACITY: usize = 6;
 /// Distance between close-packed layers of particles, in spacings: sqrt(2/3) 2^(1/6). Particles arrange in
 /// such layers along a face.
 pub(crate) const LAYER: f64 = 0.9165;
-/// Clearance beyond which the shape of a face no longer matters, in smoothing lengths: of the kernel volume
-/// half a per cent lies farther away.
+/// Clearance beyond which the shape of a face no longer matters, in smoothing lengths: less than a
+/// thousandth of the kernel volume lies farther away on that side.
 const SHAPE_REACH: f64 = 1.5;
 /// Points around the foot of a face at which its shape is asked for: cosine and sine of each.
 const RING: [[f64; 2]; 6] = {

@@ -28,7 +28,7 @@ pub struct Quality {
     /// Standard deviation of that kernel sum, relative to S0.
     pub kernel_sum_std: Option<f64>,
     /// Root mean square of `h |G|` over all particles, G the kernel gradient sum completed by what the
-    /// faces cut off.
+    /// faces cut off: beyond them particles are taken to stand in layers as they do inside.
     pub gradient_residual_rms: f64,
     /// Coefficient of variation of the particle volumes: zero up to rounding where all are equal, as of a relaxed body.
     pub volume_cv: f64,

@@ -1,10 +1,10 @@
 //! Physics-driven relaxation: particles push each other apart until the kernel gradient sum is even.
 //!
 //! The step of Zhu, Zhang, Yu and Hu (J. Hydrodyn. 33, 2021), with three changes. What lies beyond the
-//! faces enters by the closed form of a half space, not by tabulated integrals. The step factor is fixed,
-//! not scaled by the largest residual, so that the displacement really decays. And pairs that are much
-//! too close push harder than the kernel says: its gradient falls off below 0.65 spacings, which would
-//! leave a few pairs stuck together.
+//! faces enters by closed forms, of layers of particles beyond a curved face, not by tabulated integrals
+//! over an even medium. The step factor is fixed, not scaled by the largest residual, so that the
+//! displacement really decays. And pairs that are much too close push harder than the kernel says: its
+//! gradient falls off below 0.65 spacings, which would leave a few pairs stuck together.
 
 use crate::faces::{Faces, LAYER};
 use crate::neighbors::{CHUNK, Neighbors};
@@ -211,10 +211,14 @@ impl<R: Region> Relaxation<'_, R> {
         let mut sum = DVec3::ZERO;
         for &j in row {
             let d = (x - position[j as usize]) * per_support;
-            let r_squared = d.length_squared().max(f64::MIN_POSITIVE);
+            let r_squared = d.length_squared();
             let u = (1.0 - r_squared.sqrt()).max(0.0);
-            let stiff = (close_squared / r_squared).max(1.0);
-            sum += (u * u * u * stiff * stiff) * d;
+            let mut weight = u * u * u;
+            // Few pairs are so close: a branch costs less than a division for each.
+            if r_squared < close_squared {
+                weight *= (close_squared / r_squared.max(f64::MIN_POSITIVE)).powi(2);
+            }
+            sum += weight * d;
         }
         -self.volume * self.kernel.gradient_scale() * sum
     }

@@ -98,13 +98,16 @@ impl Maker<'_> {
         cells
     }
 
-    /// Where the middle of a face on the wall lies on the wall: the face itself cuts the curve short.
+    /// Tip over the middle of a face on the wall that gives the cell the volume between face and wall.
+    ///
+    /// The wall stands over the face as a paraboloid, which holds two thirds of base times height, and a
+    /// pyramid one third: so the tip is twice as far from the face as the wall.
     fn bulge(&self, corner: &[DVec3; 8], side: usize) -> Option<DVec3> {
         let bit = 1 << (side / 2);
         let is_upper = side % 2 == 1;
         let middle = (0..8).filter(|c| (c & bit != 0) == is_upper).map(|c| corner[c]).sum::<DVec3>() / 4.0;
         let nearest = self.wall.query(middle);
-        (nearest.distance.abs() < BULGE * self.spacing).then_some(nearest.point)
+        (nearest.distance.abs() < BULGE * self.spacing).then_some(2.0 * nearest.point - middle)
     }
 }
 
