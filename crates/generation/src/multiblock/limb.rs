@@ -48,11 +48,9 @@ impl<'a> Route<'a> {
         wall: &'a SignedDistance,
     ) -> Self {
         let curve = curve.resampled(spacing);
-        let up = match (hinge, openings) {
-            (Some(hinge), _) => hinge.axis,
-            (None, [Some(o), _] | [None, Some(o)]) => o.axes[1],
-            (None, [None, None]) => DVec3::Y,
-        };
+        // Without a hinge an axis of the vessel's own frame: those of a round opening are an accident.
+        let free = if curve.tangent(0.0).y.abs() < 0.8 { DVec3::Y } else { DVec3::Z };
+        let up = hinge.map_or(free, |h| h.axis);
         let frames = curve.frames(up);
         let turned = |opening: Option<&Opening>, arc: f64, sign: f64| {
             let opening = opening?;
