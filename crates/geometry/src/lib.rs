@@ -25,7 +25,7 @@ pub use distance::{Nearest, SignedDistance};
 pub use distance_grid::DistanceGrid;
 pub use error::GeometryError;
 pub use opening::Opening;
-pub use read::read_surface;
+pub use read::{parse_surface, read_surface};
 pub use surface::Surface;
 pub use unit::{LengthUnit, UnknownUnit};
 pub use vessel::{Vessel, prepare};

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::error::Problem;
+use crate::files::Files;
 
 /// Where a node was written.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,12 +63,13 @@ impl Content {
     }
 }
 
-/// The text of a case and of the overrides that were laid over it.
+/// The text of a case, the overrides to lay over it, and the files it may name.
 #[derive(Debug)]
 pub(crate) struct Source {
     pub(crate) file: PathBuf,
     pub(crate) text: String,
     pub(crate) overrides: Vec<(String, String)>,
+    pub(crate) files: Files,
 }
 
 impl Source {
