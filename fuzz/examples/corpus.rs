@@ -74,7 +74,8 @@ fn heaps() -> Vec<(&'static str, Surface)> {
             let (duct, mut torn) = (duct(), Surface::default());
             for corners in &duct.triangles {
                 let first = torn.vertices.len() as u32;
-                torn.vertices.extend(corners.map(|v| duct.vertices[v as usize] + 1e-6 * f64::from(first % 2)));
+                torn.vertices
+                    .extend(corners.map(|v| duct.vertices[v as usize] + 1e-6 * f64::from(first % 2)));
                 torn.triangles.push([first, first + 1, first + 2]);
             }
             torn
@@ -109,7 +110,11 @@ fn main() {
     write("stl", "binary.stl", &samples::stl_binary(&duct, b"duct"));
     write("stl", "binary_solid.stl", &samples::stl_binary(&duct, b"solid duct"));
     write("stl", "text.stl", samples::stl_text(&duct).as_bytes());
-    write("stl", "two_solids.stl", format!("\u{feff}{0}{0}", samples::stl_text(&duct).to_uppercase()).as_bytes());
+    write(
+        "stl",
+        "two_solids.stl",
+        format!("\u{feff}{0}{0}", samples::stl_text(&duct).to_uppercase()).as_bytes(),
+    );
     for (number, variant) in samples::variants().iter().enumerate().step_by(7) {
         write("vtp", &format!("variant_{number:03}.vtp"), &variant.file(&duct));
     }

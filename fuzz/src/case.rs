@@ -6,8 +6,10 @@ use std::path::PathBuf;
 use vaso_scene::Scene;
 
 /// Tables a case of the corpus may name.
-const TABLES: [(&str, &str); 2] =
-    [("rise.csv", "time,flow\n0,0\n0.5,1\n"), ("beat.csv", "time [ms];velocity (cm/s)\n0;1\n400;30\n800;1\n")];
+const TABLES: [(&str, &str); 2] = [
+    ("rise.csv", "time,flow\n0,0\n0.5,1\n"),
+    ("beat.csv", "time [ms];velocity (cm/s)\n0;1\n400;30\n800;1\n"),
+];
 
 /// Reads a text as a case.
 ///

@@ -6,6 +6,7 @@ mod close;
 mod corner;
 mod distance;
 mod distance_grid;
+mod ears;
 mod error;
 mod opening;
 mod polygon;

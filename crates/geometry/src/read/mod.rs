@@ -2,7 +2,9 @@
 
 mod stl;
 mod vtk_array;
+mod vtk_blocks;
 mod vtp;
+mod xml;
 
 use std::path::Path;
 
@@ -39,6 +41,8 @@ pub fn parse_surface(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError
     Ok(surface)
 }
 
+#[cfg(test)]
+mod hostile;
 #[cfg(test)]
 mod samples;
 #[cfg(test)]

@@ -170,4 +170,3 @@ pub(crate) fn variants() -> Vec<Variant> {
     }
     all
 }
-

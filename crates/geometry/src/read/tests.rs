@@ -5,6 +5,7 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::{
+    hostile::hostile,
     parse_surface,
     samples::{corners, stl_binary, stl_text, variants},
 };
@@ -130,6 +131,18 @@ fn truncated_files_are_errors_or_parts_but_never_panics() {
             }
         }
     }
+}
+
+#[test]
+fn files_made_to_exhaust_the_reader_are_refused_by_name() {
+    let mut faults = Vec::new();
+    for file in hostile(100_000) {
+        let error = read(&file.bytes).expect_err(file.name).to_string();
+        if !error.contains(file.error) || !error.contains("\"test\"") {
+            faults.push(format!("{}: {error}", file.name));
+        }
+    }
+    assert_eq!(faults, Vec::<String>::new());
 }
 
 proptest! {
