@@ -23,7 +23,7 @@ impl Mutator {
     }
 
     /// A number below `n`, which is at least 1 (SplitMix64: Steele, Lea and Flood 2014).
-    fn below(&mut self, n: usize) -> usize {
+    pub fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

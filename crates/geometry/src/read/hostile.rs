@@ -44,22 +44,39 @@ fn xml(n: usize) -> Vec<Hostile> {
     let namespaces = (0..n / 16).map(|i| format!("<a xmlns:n{i}='{i}'>"));
     let empty = "zero triangles";
     vec![
-        file("depth", "damaged XML", "<a>".repeat(n / 3)),
-        file("tags", if n / 4 > 1 << 16 { "nodes limit" } else { empty }, "<a/>".repeat(n / 4)),
+        file(
+            "depth",
+            if n / 3 > 1 << 16 { "more than 65536 tags" } else { "damaged XML" },
+            "<a>".repeat(n / 3),
+        ),
+        file("tags", if n / 4 > 1 << 16 { "more than 65536 tags" } else { empty }, "<a/>".repeat(n / 4)),
         file("brackets", "is longer than 4096 bytes", "<".repeat(n)),
         file("attributes", "is longer than 4096 bytes", format!("<a b='>'{}/>", attributes("c"))),
         file(
             "short_tags_of_attributes",
-            empty,
+            if n > 500_000 { "equals signs" } else { empty },
             format!("<a{}'/>", attributes("c")[..2000.min(n / 2)].trim_end_matches('\''))
                 .repeat(n / 2000 + 1),
         ),
         file("namespaces", "declare a namespace", namespaces.collect()),
         file("references", empty, "&#65;".repeat(n / 5)),
+        file("equals_signs", if n > 1 << 16 { "equals signs" } else { empty }, "=".repeat(n)),
         file("carriage_returns", empty, "\r".repeat(n)),
-        file("pieces", if n / 8 > 1 << 16 { "nodes limit" } else { empty }, "<Piece/>".repeat(n / 8)),
-        file("comments", if n / 7 > 1 << 16 { "nodes limit" } else { empty }, "<!---->".repeat(n / 7)),
-        file("sections", empty, "<![CDATA[1]]>0".repeat(n / 14)),
+        file(
+            "pieces",
+            if n / 8 > 1 << 16 { "more than 65536 tags" } else { empty },
+            "<Piece/>".repeat(n / 8),
+        ),
+        file(
+            "comments",
+            if n / 7 > 1 << 16 { "more than 65536 tags" } else { empty },
+            "<!---->".repeat(n / 7),
+        ),
+        file(
+            "sections",
+            if n / 14 > 1 << 16 { "more than 65536 tags" } else { empty },
+            "<![CDATA[1]]>0".repeat(n / 14),
+        ),
         Hostile {
             name: "entities",
             bytes: {
@@ -95,7 +112,7 @@ fn arrays(n: usize) -> Vec<Hostile> {
         "<Piece><Points><DataArray type=\"UInt8\" format=\"appended\" offset=\"0\"/></Points></Piece>";
     let n_points = n as u64 / 3 * 3;
     let shared = [&n_points.to_le_bytes()[..], &vec![0; n_points as usize]].concat();
-    let pieces = same_place.repeat(n / 80 + 20);
+    let pieces = same_place.repeat((n / 80 + 20).min(2000));
     let one = |name, error, bytes| Hostile { name, bytes, error };
     vec![
         one("length", "1152921504606846976 bytes announced, 0 left", points("", &(1u64 << 60).to_le_bytes())),

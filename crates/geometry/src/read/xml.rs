@@ -8,6 +8,8 @@ use roxmltree::{Document, ParsingOptions};
 
 /// Most elements, texts and comments.
 const MAX_NODES: u32 = 1 << 16;
+/// Most equals signs, for each of which `roxmltree` keeps room for an attribute.
+const MAX_EQUALS_SIGNS: usize = 1 << 16;
 /// Most bytes of a tag with its attributes.
 const MAX_TAG: usize = 4096;
 /// Most tags that declare a namespace.
@@ -22,9 +24,13 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
 
 fn check_tags(text: &str) -> Result<(), String> {
     let mut rest = text;
-    let mut n_namespaces = 0;
+    let (mut n_tags, mut n_namespaces) = (0, 0);
     while let Some(start) = rest.find('<') {
         rest = &rest[start..];
+        n_tags += 1;
+        if n_tags > MAX_NODES {
+            return Err(format!("more than {MAX_NODES} tags"));
+        }
         let is_free =
             [("<!--", "-->"), ("<![CDATA[", "]]>")].into_iter().find(|(from, _)| rest.starts_with(from));
         let length = match is_free {
@@ -48,6 +54,9 @@ fn check_tags(text: &str) -> Result<(), String> {
         // What never ends is left to the parser, which says what is missing.
         let Some(length) = length else { break };
         rest = &rest[length..];
+    }
+    if text.bytes().filter(|&byte| byte == b'=').count() > MAX_EQUALS_SIGNS {
+        return Err(format!("more than {MAX_EQUALS_SIGNS} equals signs: too many attributes"));
     }
     Ok(())
 }
@@ -86,7 +95,7 @@ mod tests {
         assert_eq!(error, "the tag at byte 0 is longer than 4096 bytes");
         let nested: String = (0..9).map(|i| format!("<a xmlns:n{i}='{i}'>")).collect();
         assert!(parse(&nested).expect_err("too many").contains("declare a namespace"));
-        assert!(parse(&"<a>".repeat(100_000)).expect_err("too deep").contains("nodes limit"));
+        assert!(parse(&"<a>".repeat(100_000)).expect_err("too deep").contains("more than 65536 tags"));
         let entities = "<!DOCTYPE a [<!ENTITY b \"bbbbbbbb\"><!ENTITY c \"&b;&b;&b;\">]><a>&c;</a>";
         assert!(parse(entities).expect_err("entities").contains("DTD"));
         assert!(parse("<a b=\"").is_err());
