@@ -24,25 +24,28 @@ static ALONE: Mutex<()> = Mutex::new(());
 
 /// Most seconds for a file of up to 100 kB. The worst surface takes 0.4 s, files take milliseconds.
 const MOST_SECONDS: f64 = 2.0;
-/// Most bytes for each byte of a file, above what any file may take.
-const MOST_BYTES: (usize, usize) = (40, 4 << 20);
+/// Bytes of memory that any file may take.
+const FREE_BYTES: usize = 4 << 20;
+/// Most bytes of memory for each byte of a surface, and for each byte of a case: those are small, and the parser of TOML
+/// keeps 500 bytes for a mistake.
+const SURFACE: usize = 40;
+const CASE: usize = 640;
 /// Mutations of each corpus.
 const MUTATIONS: usize = 10_000;
 
 /// Runs a target on a file, and complains where that panics, takes too long or takes too much; returns the memory
 /// \[bytes\] and the time \[s\] it took.
-fn run(target: impl Fn(&[u8]), name: &str, bytes: &[u8]) -> (usize, f64) {
+fn run(target: impl Fn(&[u8]), name: &str, bytes: &[u8], memory: usize) -> (usize, f64) {
     let before = MEMORY.current_usage();
     MEMORY.reset_peak_usage();
     let began = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| target(bytes)));
     let took = began.elapsed().as_secs_f64();
     let peak = MEMORY.peak_usage().saturating_sub(before);
-    let (each, free) = MOST_BYTES;
     let size = bytes.len();
     let fault = if outcome.is_err() {
         "panics".to_owned()
-    } else if peak > free + each * size {
+    } else if peak > FREE_BYTES + memory * size {
         format!("takes {peak} bytes of memory for {size}")
     } else if took > MOST_SECONDS * (1.0f64).max(size as f64 / 1e5) {
         format!("takes {took} s for {size} bytes")
@@ -54,8 +57,8 @@ fn run(target: impl Fn(&[u8]), name: &str, bytes: &[u8]) -> (usize, f64) {
     panic!("{name} {fault}; it is kept as {}", kept.display());
 }
 
-fn run_and_print(target: impl Fn(&[u8]), name: &str, bytes: &[u8]) {
-    let (peak, took) = run(target, name, bytes);
+fn run_and_print(target: impl Fn(&[u8]), name: &str, bytes: &[u8], memory: usize) {
+    let (peak, took) = run(target, name, bytes, memory);
     println!("{name:<44} {:>9} bytes {:>10.1} kB {:>10.3} ms", bytes.len(), peak as f64 / 1e3, took * 1e3);
 }
 
@@ -82,7 +85,7 @@ fn the_corpus_passes() {
         let files = corpus(name);
         assert!(files.len() >= 4, "{name}: only {} files", files.len());
         for (name, bytes) in files {
-            run_and_print(target, &name, &bytes);
+            run_and_print(target, &name, &bytes, CASE);
         }
     }
 }
@@ -95,7 +98,7 @@ fn mutations_of_the_corpus_pass() {
         let mut mutator = mutate::Mutator::new(seed as u64);
         for number in 0..MUTATIONS {
             let bytes = mutator.mutate(&files[number % files.len()], &files);
-            run(target, &format!("{name}, mutation {number}"), &bytes);
+            run(target, &format!("{name}, mutation {number}"), &bytes, CASE);
         }
     }
 }
@@ -109,7 +112,7 @@ fn files_made_to_exhaust_the_readers_do_not() {
                 let error = parse_surface(bytes, Path::new("input")).expect_err("it is a lie").to_string();
                 assert!(error.contains(file.error), "{error}");
             };
-            run_and_print(refused, &format!("{} of {size}", file.name), &file.bytes);
+            run_and_print(refused, &format!("{} of {size}", file.name), &file.bytes, SURFACE);
         }
     }
 }
@@ -155,6 +158,47 @@ fn surfaces_made_to_exhaust_the_repair_do_not() {
             |_| drop(vaso_geometry::prepare(surface.clone(), Some(LengthUnit::Metre))),
             name,
             &size,
+            SURFACE,
         );
+    }
+}
+
+#[test]
+fn texts_made_to_exhaust_the_case_do_not() {
+    let _alone = ALONE.lock();
+    let n = 100_000;
+    let numbered = |line: &dyn Fn(usize) -> String, count: usize| (0..count).map(line).collect::<String>();
+    let texts = [
+        ("arrays in arrays", format!("a = {}", "[".repeat(n))),
+        ("tables in tables", format!("a = {}", "{ a = ".repeat(n / 6))),
+        ("a key of many parts", format!("{}a = 1", "a.".repeat(n / 2))),
+        ("a table of many parts", format!("[{}a]", "a.".repeat(n / 2))),
+        ("a key of one part", format!("[blood]\n{} = 1", "a".repeat(n))),
+        ("unknown keys", numbered(&|i| format!("a{i}=1\n"), n / 8)),
+        ("unknown keys of a table", format!("[run]\n{}", numbered(&|i| format!("end_tim{i}=1\n"), n / 16))),
+        ("the same key", "[run]\n".to_owned() + &"period=1\n".repeat(n / 9)),
+        ("many openings", "[[opening]]\n".repeat(n / 12)),
+        ("openings of one name", "[[opening]]\nname=\"a\"\n".repeat(n / 21)),
+        ("many probes", numbered(&|i| format!("[[probe]]\nname=\"p{i}\"\nat=[0,0,0]\n"), n / 32)),
+        ("a long unit", format!("[blood]\ndensity = \"1 {}\"", "m*".repeat(n / 2))),
+        ("an unknown unit", format!("[blood]\ndensity = \"1 {}\"", "x".repeat(n))),
+        ("many units", format!("[blood]\n{}", numbered(&|i| format!("density{i} = \"1 xx\"\n"), n / 20))),
+        ("a long number", format!("[blood]\ndensity = \"{} kg/m^3\"", "1".repeat(n))),
+        ("a long integer", format!("[numerics]\nseed = {}", "1".repeat(n))),
+        ("a long word", format!("[wall]\nmodel = \"{}\"", "shell".repeat(n / 5))),
+        ("many fields", format!("[output]\nfields = [{}]", "\"velocty\",".repeat(n / 10))),
+        ("many overrides", "#set run.period=1\n".repeat(n / 18)),
+        ("an override of many parts", format!("#set {}a=1", "a.".repeat(n / 2))),
+        ("an override of arrays in arrays", format!("#set a={}", "[".repeat(n))),
+        (
+            "a table of many rows",
+            format!("[[opening]]\nwaveform=\"own.csv\"\n#file\n{}", numbered(&|i| format!("{i},1\n"), n / 8)),
+        ),
+        ("quotes", "\"".repeat(n)),
+        ("carriage returns", "\r".repeat(n)),
+        ("lines of errors", "=\n".repeat(n / 2)),
+    ];
+    for (name, text) in texts {
+        run_and_print(vaso_fuzz::case, name, text.as_bytes(), CASE);
     }
 }

@@ -20,7 +20,7 @@ pub(crate) fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene,
     let file = case_file(path);
     let overrides = overrides.to_vec();
     match std::fs::read_to_string(&file) {
-        Ok(text) => scene(Source { file, text, overrides, files: Files::Disk }),
+        Ok(text) => scene(Source::new(file, text, overrides, Files::Disk)),
         Err(error) => {
             let allowed = "a case folder, or the path of a case.toml in UTF-8".into();
             let message = format!("cannot be read: {error}");
@@ -98,9 +98,11 @@ impl Builder<'_> {
     }
 
     fn unique_names(&mut self, sections: &[Section]) {
-        for (number, section) in sections.iter().enumerate() {
+        let mut taken: BTreeMap<&str, &Section> = BTreeMap::new();
+        for section in sections {
             let Some(name) = section.text("name") else { continue };
-            if let Some(first) = sections[..number].iter().find(|other| other.text("name") == Some(name)) {
+            let first = *taken.entry(name).or_insert(section);
+            if !std::ptr::eq(first, section) {
                 let line = self.source.problem(first.spot("name"), "", "").line;
                 let place = line.map_or_else(String::new, |line| format!(" in line {line}"));
                 self.report(

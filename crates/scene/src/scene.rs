@@ -67,12 +67,8 @@ impl Scene {
         overrides: &[(String, String)],
         files: &BTreeMap<PathBuf, String>,
     ) -> Result<Self, SceneError> {
-        crate::check::scene(Source {
-            file: "case.toml".into(),
-            text: text.to_owned(),
-            overrides: overrides.to_vec(),
-            files: Files::Given(files.clone()),
-        })
+        let files = Files::Given(files.clone());
+        crate::check::scene(Source::new("case.toml".into(), text.to_owned(), overrides.to_vec(), files))
     }
 
     /// A problem with a key that shows only after loading, such as an opening the surface does not have; it names the
