@@ -9,6 +9,8 @@ mod geometry;
 pub use case::case;
 pub use geometry::{prepare, stl, vtp};
 
-/// A target of the fuzzer, by the name of its folder in `corpus`.
-pub const TARGETS: [(&str, fn(&[u8])); 4] =
-    [("stl", stl), ("vtp", vtp), ("case", case), ("prepare", prepare)];
+/// What is done with an input.
+pub type Target = fn(&[u8]);
+
+/// The targets by the names of their folders in `corpus`.
+pub const TARGETS: [(&str, Target); 4] = [("stl", stl), ("vtp", vtp), ("case", case), ("prepare", prepare)];
