@@ -40,6 +40,11 @@ docs:
     cargo run -p vaso-scene --example case_reference > docs/case-reference.md
     cargo doc --workspace --no-deps
 
+# A target of the fuzzer (stl, vtp, case, prepare) for some seconds; needs cargo-fuzz and a C++ compiler.
+fuzz target="vtp" seconds="60":
+    mkdir -p fuzz/target/corpus/{{target}}
+    cargo fuzz run --sanitizer none {{target}} fuzz/target/corpus/{{target}} fuzz/corpus/{{target}} -- -max_len=8192 -timeout=5 -max_total_time={{seconds}}
+
 # Licences, advisories and sources of the dependencies; needs cargo-deny.
 deny:
     cargo deny check

@@ -78,6 +78,8 @@ pub enum Rejection {
     NoTubeBehind,
     /// The region has holes, or several borders.
     SeveralBorders,
+    /// There are hundreds of larger regions that could be caps: this is no vessel.
+    TooManyLarger,
 }
 
 impl fmt::Display for Rejection {
@@ -87,6 +89,7 @@ impl fmt::Display for Rejection {
             Rejection::NoCorner => "it does not meet the wall at a corner of 45 to 135 degrees all around",
             Rejection::NoTubeBehind => "there is no tube behind it that ends in it",
             Rejection::SeveralBorders => "it has more than one border",
+            Rejection::TooManyLarger => "hundreds of larger regions could be caps as well",
         })
     }
 }

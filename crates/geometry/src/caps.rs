@@ -33,6 +33,9 @@ const MIN_CIRCULARITY: f64 = 0.6;
 const SAMPLES: usize = 16;
 const MAX_FAILED_SAMPLES: usize = 2;
 
+/// Most regions looked at for a tube behind them, the largest: in a heap of parts that overlap every look visits every
+/// triangle. Vessels have some hundred ends at most.
+const MAX_TUBES: usize = 256;
 /// Number of flat regions listed that are no caps: the largest.
 const MAX_LISTED: usize = 16;
 
@@ -59,7 +62,7 @@ pub(crate) fn find(surface: &Surface, taken: &[bool]) -> (Vec<Cap>, Vec<FlatRegi
     };
     let mut seeds: Vec<usize> = (0..n).collect();
     seeds.sort_by(|&a, &b| surface.triangle_area(b).total_cmp(&surface.triangle_area(a)));
-    let (mut caps, mut regions) = (Vec::new(), Vec::new());
+    let mut judged = Vec::new();
     for seed in seeds {
         if finder.done[seed] {
             continue;
@@ -70,7 +73,23 @@ pub(crate) fn find(surface: &Surface, taken: &[bool]) -> (Vec<Cap>, Vec<FlatRegi
         if area < min_area {
             continue;
         }
-        let Some((opening, region)) = finder.judge(&triangles, &tree) else { continue };
+        judged.extend(finder.judge(&triangles).map(|(opening, region)| (opening, region, triangles)));
+    }
+    let mut areas: Vec<f64> =
+        judged.iter().filter(|(_, r, _)| r.rejected.is_none()).map(|(_, r, _)| r.area).collect();
+    areas.sort_by(|a, b| b.total_cmp(a));
+    let least = areas.get(MAX_TUBES).copied().unwrap_or(0.0);
+    let (mut caps, mut regions) = (Vec::new(), Vec::new());
+    for (opening, mut region, triangles) in judged {
+        if region.rejected.is_none() {
+            region.rejected = if region.area <= least {
+                Some(Rejection::TooManyLarger)
+            } else if !ends_a_tube(&opening, &tree) {
+                Some(Rejection::NoTubeBehind)
+            } else {
+                None
+            };
+        }
         if region.rejected.is_none() {
             caps.push(Cap { opening, triangles });
         }
@@ -148,8 +167,8 @@ impl Finder<'_> {
                 && self.surface.triangle_normal(t).dot(normal) >= degrees.to_radians().cos())
     }
 
-    /// Measures a region and decides whether it is a cap. `None` when it has no border at all.
-    fn judge(&self, triangles: &[usize], tree: &WindingTree) -> Option<(Opening, FlatRegion)> {
+    /// Measures a region and decides whether it can be a cap by itself. `None` when it has no border at all.
+    fn judge(&self, triangles: &[usize]) -> Option<(Opening, FlatRegion)> {
         let own: Vec<[u32; 3]> = triangles.iter().map(|&t| self.surface.triangles[t]).collect();
         let edges = Edges::new(&own);
         let mut loops = loops::chain(&edges.border());
@@ -166,8 +185,6 @@ impl Finder<'_> {
             Some(Rejection::SeveralBorders)
         } else if !corner.is_rim() {
             Some(Rejection::NoCorner)
-        } else if !ends_a_tube(&opening, tree) {
-            Some(Rejection::NoTubeBehind)
         } else {
             None
         };

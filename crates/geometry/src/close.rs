@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::{
     corner::Corner,
+    ears,
     opening::{Opening, loop_area_vector, project_all},
     polygon,
     repair::{edges::Edges, loops},
@@ -50,7 +51,7 @@ pub(crate) fn close_loops(surface: &mut Surface) -> Vec<Closed> {
         let first = surface.triangles.len();
         let opening = Opening::from_loop(&points);
         let flat = flatten(&points);
-        let new = polygon::triangulate(&flat).into_iter().map(|t| t.map(|k| corners[k]));
+        let new = ears::triangulate(&flat).into_iter().map(|t| t.map(|k| corners[k]));
         surface.triangles.extend(new);
         let center = points.iter().sum::<DVec3>() / points.len() as f64;
         let radius = (loop_area_vector(&points).length() / std::f64::consts::PI).sqrt();

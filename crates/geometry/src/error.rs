@@ -45,6 +45,19 @@ pub enum GeometryError {
         /// Bytes the file has.
         found: u64,
     },
+    /// More triangles than vertices can be numbered for.
+    #[error(
+        "\"{}\" has {count} triangles or more, beyond the limit of {limit}; coarsen the surface",
+        path.display()
+    )]
+    TooManyTriangles {
+        /// The file.
+        path: PathBuf,
+        /// Triangles announced, or read so far.
+        count: u64,
+        /// Most triangles taken.
+        limit: u64,
+    },
     /// A word of an ASCII STL is not the one the format asks for.
     #[error("line {line} of \"{}\": expected {expected}, found \"{found}\"", path.display())]
     StlText {

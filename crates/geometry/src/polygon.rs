@@ -1,17 +1,17 @@
-//! Plane polygons: area, centroid, axes, distance, triangulation. Vertices run counter-clockwise.
+//! Plane polygons: area, centroid, axes, distance. Vertices run counter-clockwise.
 
 /// A point of the plane.
 pub(crate) type Point = [f64; 2];
 
-fn sub(a: Point, b: Point) -> Point {
+pub(crate) fn sub(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-fn cross(a: Point, b: Point) -> f64 {
+pub(crate) fn cross(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+pub(crate) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
@@ -94,51 +94,6 @@ pub(crate) fn is_simple(polygon: &[Point]) -> bool {
     })
 }
 
-/// Triangles of a counter-clockwise polygon by ear clipping, the ear with the shortest cut first.
-///
-/// A simple polygon of `n` vertices gives `n - 2` triangles. Where the polygon crosses itself no ear may be
-/// left; then the shortest cut is taken all the same, so that the border is closed in any case.
-pub(crate) fn triangulate(polygon: &[Point]) -> Vec<[usize; 3]> {
-    let mut left: Vec<usize> = (0..polygon.len()).collect();
-    let mut triangles = Vec::with_capacity(polygon.len().saturating_sub(2));
-    while left.len() > 3 {
-        let n = left.len();
-        let corner = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
-        let turn = |i: usize| {
-            let [a, b, c] = corner(i).map(|v| polygon[v]);
-            cross(sub(b, a), sub(c, b))
-        };
-        let cut = |i: usize| {
-            let [a, _, c] = corner(i).map(|v| polygon[v]);
-            dot(sub(c, a), sub(c, a))
-        };
-        // Only a vertex with a turn to the right can lie in an ear.
-        let reflex: Vec<usize> = (0..n).filter(|&i| turn(i) <= 0.0).map(|i| left[i]).collect();
-        let is_ear = |i: usize| turn(i) > 0.0 && !reflex.iter().any(|&v| blocks(polygon, corner(i), v));
-        let mut order: Vec<usize> = (0..n).collect();
-        order.sort_unstable_by(|&i, &j| cut(i).total_cmp(&cut(j)).then(i.cmp(&j)));
-        let best = order.iter().copied().find(|&i| is_ear(i)).unwrap_or(order[0]);
-        triangles.push(corner(best));
-        left.remove(best);
-    }
-    if let [a, b, c] = left[..] {
-        triangles.push([a, b, c]);
-    }
-    triangles
-}
-
-/// Whether vertex `v` lies in or on the triangle `ear`, its own corners aside.
-fn blocks(polygon: &[Point], ear: [usize; 3], v: usize) -> bool {
-    let p = polygon[v];
-    // A vertex of the same position (a loop that touches itself) does not block either.
-    !ear.contains(&v)
-        && ear.iter().all(|&e| polygon[e] != p)
-        && (0..3).all(|k| {
-            let (a, b) = (polygon[ear[k]], polygon[ear[(k + 1) % 3]]);
-            cross(sub(b, a), sub(p, a)) >= 0.0
-        })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -172,23 +127,5 @@ mod tests {
     fn a_figure_of_eight_is_not_simple() {
         assert!(is_simple(&L_SHAPE));
         assert!(!is_simple(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]));
-    }
-
-    #[test]
-    fn ears_tile_the_polygon() {
-        let star: Vec<Point> = (0..40)
-            .map(|i| {
-                let (r, angle) =
-                    (if i % 2 == 0 { 1.0 } else { 0.3 }, f64::from(i) * std::f64::consts::TAU / 40.0);
-                [r * angle.cos(), r * angle.sin()]
-            })
-            .collect();
-        for polygon in [&L_SHAPE[..], &star] {
-            let triangles = triangulate(polygon);
-            assert_eq!(triangles.len(), polygon.len() - 2);
-            let areas = triangles.iter().map(|t| area(&t.map(|v| polygon[v])));
-            assert!(areas.clone().all(|a| a > 0.0));
-            assert!((areas.sum::<f64>() - area(polygon)).abs() < 1e-14);
-        }
     }
 }

@@ -147,6 +147,26 @@ fn without_openings_the_candidates_are_listed() {
     assert!((base.area / std::f64::consts::PI - 1.0).abs() < 2e-3 && base.circularity > 0.99);
 }
 
+/// Every face of a regular tetrahedron passes for a cap: flat, round enough, at corners, with lumen behind.
+#[test]
+fn hundreds_of_caps_are_none() {
+    let tetrahedra = |n: u32| {
+        let corners =
+            [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]].map(|v| DVec3::from(v.map(f64::from)));
+        let mut heap = Surface::default();
+        for i in 0..n {
+            let shift = 4.0 * f64::from(i) * DVec3::X;
+            heap.vertices.extend(corners.map(|v| v + shift));
+            heap.triangles.extend([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]].map(|t| t.map(|v| v + 4 * i)));
+        }
+        vessel(heap)
+    };
+    assert_eq!(tetrahedra(60).openings.len(), 240);
+    let many = tetrahedra(70);
+    assert_eq!(many.openings.len(), 0);
+    assert!(many.audit.flat_regions.iter().all(|r| r.rejected == Some(Rejection::TooManyLarger)));
+}
+
 #[test]
 fn a_square_duct_of_few_triangles_has_two_openings() {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::{DQuat, DVec3};
-use vaso_geometry::{GeometryError, LengthUnit, Vessel, prepare, read_surface};
+use vaso_geometry::{LengthUnit, Vessel, prepare, read_surface};
 
 /// The folder of surfaces, or `None` (with a word) when the data are not there.
 fn data() -> Option<PathBuf> {
@@ -144,43 +144,6 @@ fn stenosed_tube_has_two_openings() {
     assert_volume(&vessel, 2713.34, 1e-5, "stenosed tube");
     let caps = [cap([100.0, 0.0, 0.0], [1.0, 0.0, 0.0], 28.131), cap([0.0; 3], [-1.0, 0.0, 0.0], 28.131)];
     assert_openings(&vessel, &caps, "stenosed tube");
-}
-
-#[test]
-fn defects_are_handled_as_their_readme_says() {
-    let Some(data) = data() else { return };
-    let folder = data.join("defects");
-    let repaired = [
-        ("00_base", &[][..]),
-        ("01_reversed_normals", &["reversed all triangles"]),
-        ("02_mixed_winding", &["reversed 66"]),
-        ("04_open_inlet", &["closed an open end"]),
-        ("05_all_caps_open", &["closed an open end"; 3]),
-        ("06_duplicate_triangles", &["dropped 40 duplicate triangles"]),
-        ("07_zero_area_slivers", &["dropped 30 triangles without area"]),
-        ("08_floating_component", &["dropped 1 floating component"]),
-        ("18_binary_starting_with_solid", &[]),
-    ];
-    for (name, expected) in repaired {
-        let vessel = vessel(&folder.join(name).with_extension("stl"), LengthUnit::Millimetre);
-        assert_volume(&vessel, 1865.28, 1e-3, name);
-        assert_openings_to(&vessel, &CAROTID, 0.03, name);
-        assert_eq!(vessel.audit.repairs.len(), expected.len(), "{name}: {:?}", vessel.audit.repairs);
-        for (found, expected) in vessel.audit.repairs.iter().zip(expected) {
-            assert!(found.starts_with(expected), "{name}: {found}");
-        }
-        assert_eq!(vessel.audit.components, 1, "{name}");
-    }
-    let metres = prepare(read_surface(&folder.join("13_metres.stl")).expect("a valid file"), None);
-    let metres = metres.expect("a vessel");
-    assert_eq!((metres.unit, metres.audit.unit_guessed), (LengthUnit::Metre, true));
-    assert_volume(&metres, 1865.28e-9, 1e-3, "metres");
-
-    let cut = read_surface(&folder.join("19_truncated.stl")).expect_err("half a file");
-    assert!(matches!(cut, GeometryError::StlLength { count: 3314, found: 82_892, .. }));
-    assert!(cut.to_string().contains("does not fit the length"));
-    let empty = read_surface(&folder.join("20_empty.stl")).expect_err("no triangles");
-    assert!(matches!(empty, GeometryError::EmptyFile { .. }));
 }
 
 /// Caps, volume and area of the synthetic set, from its `ground_truth.json` [mm].

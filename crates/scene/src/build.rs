@@ -36,10 +36,7 @@ impl Builder<'_> {
     }
 
     pub(crate) fn title(&self, section: &Section, directory: &Path) -> String {
-        let folder = || {
-            let full = directory.canonicalize().ok()?;
-            Some(full.file_name()?.to_string_lossy().into_owned())
-        };
+        let folder = || self.source.files.folder_name(directory);
         section.text("title").map(str::to_owned).or_else(folder).unwrap_or_else(|| "case".into())
     }
 

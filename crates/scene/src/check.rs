@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::build::Builder;
-use crate::document::{NOWHERE, Source, case_file};
+use crate::document::{Source, case_file};
 use crate::error::{Problem, SceneError};
+use crate::files::Files;
 use crate::material::{Blood, Wall};
 use crate::opening::{ConditionKind, Opening};
 use crate::overrides;
@@ -14,17 +15,22 @@ use crate::scene::{Field, Output, Run, Scene};
 use crate::section::Section;
 use crate::words::Word;
 
+/// Reads a case from disk.
 pub(crate) fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
     let file = case_file(path);
-    let mut source = Source { file, text: String::new(), overrides: overrides.to_vec() };
-    match std::fs::read_to_string(&source.file) {
-        Ok(text) => source.text = text,
+    let overrides = overrides.to_vec();
+    match std::fs::read_to_string(&file) {
+        Ok(text) => scene(Source::new(file, text, overrides, Files::Disk)),
         Err(error) => {
-            let problem = source.problem(&NOWHERE, "", format!("cannot be read: {error}"));
             let allowed = "a case folder, or the path of a case.toml in UTF-8".into();
-            return Err(SceneError { problems: vec![Problem { allowed, ..problem }] });
+            let message = format!("cannot be read: {error}");
+            Err(SceneError { problems: vec![Problem { allowed, message, ..Problem::of_file(file) }] })
         }
     }
+}
+
+/// From the text of a case to its scene.
+pub(crate) fn scene(source: Source) -> Result<Scene, SceneError> {
     let mut root = source.parse().map_err(|problems| SceneError { problems })?;
     let overriding = overrides::apply(&source, &mut root);
     let directory = match source.file.parent() {
@@ -92,9 +98,11 @@ impl Builder<'_> {
     }
 
     fn unique_names(&mut self, sections: &[Section]) {
-        for (number, section) in sections.iter().enumerate() {
+        let mut taken: BTreeMap<&str, &Section> = BTreeMap::new();
+        for section in sections {
             let Some(name) = section.text("name") else { continue };
-            if let Some(first) = sections[..number].iter().find(|other| other.text("name") == Some(name)) {
+            let first = *taken.entry(name).or_insert(section);
+            if !std::ptr::eq(first, section) {
                 let line = self.source.problem(first.spot("name"), "", "").line;
                 let place = line.map_or_else(String::new, |line| format!(" in line {line}"));
                 self.report(

@@ -6,18 +6,21 @@ use std::path::{Path, PathBuf};
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::error::Problem;
+use crate::files::Files;
 
 /// Where a node was written.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Spot {
-    /// Bytes of the case file; empty for what stands nowhere.
+    /// Bytes of the case file.
     File(Range<usize>),
     /// Number of the override.
     Override(usize),
+    /// Not written anywhere.
+    Nowhere,
 }
 
-/// The spot of what is not written anywhere.
-pub(crate) const NOWHERE: Spot = Spot::File(0..0);
+/// Faults of syntax reported; a file that is no TOML has one at every character.
+const MOST_SYNTAX_PROBLEMS: usize = 20;
 
 /// A value with the place it was written at.
 #[derive(Debug, Clone)]
@@ -62,25 +65,35 @@ impl Content {
     }
 }
 
-/// The text of a case and of the overrides that were laid over it.
+/// The text of a case, the overrides to lay over it, and the files it may name.
 #[derive(Debug)]
 pub(crate) struct Source {
     pub(crate) file: PathBuf,
     pub(crate) text: String,
     pub(crate) overrides: Vec<(String, String)>,
+    pub(crate) files: Files,
+    /// The byte at which each line starts.
+    lines: Vec<usize>,
 }
 
 impl Source {
+    pub(crate) fn new(file: PathBuf, text: String, overrides: Vec<(String, String)>, files: Files) -> Self {
+        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1);
+        let lines = std::iter::once(0).chain(starts).collect();
+        Self { file, text, overrides, files, lines }
+    }
+
     /// The tree of the file.
     pub(crate) fn parse(&self) -> Result<Node, Vec<Problem>> {
         let (table, errors) = DeTable::parse_recoverable(&self.text);
         if errors.is_empty() {
-            return Ok(Node { content: table_of(table.get_ref(), &Spot::File), spot: NOWHERE });
+            return Ok(Node { content: table_of(table.get_ref(), &Spot::File), spot: Spot::Nowhere });
         }
         let mut problems: Vec<Problem> = errors
             .iter()
+            .take(MOST_SYNTAX_PROBLEMS)
             .map(|error| {
-                let spot = error.span().map_or(NOWHERE, Spot::File);
+                let spot = error.span().map_or(Spot::Nowhere, Spot::File);
                 Problem {
                     advice: "correct the TOML syntax".into(),
                     ..self.problem(&spot, "", error.message())
@@ -101,14 +114,21 @@ impl Source {
                 problem.setting = Some(format!("{key}={value}"));
                 problem.seen = shortened(value);
             }
-            nowhere if *nowhere == NOWHERE => {}
+            Spot::Nowhere => {}
             Spot::File(span) => {
-                let (line, column) = line_and_column(&self.text, span.start);
+                let (line, column) = self.line_and_column(span.start);
                 (problem.line, problem.column) = (Some(line), Some(column));
                 problem.seen = shortened(self.text.get(span.clone()).unwrap_or_default());
             }
         }
         problem
+    }
+
+    /// Line and column, both from 1, the column in characters.
+    fn line_and_column(&self, byte: usize) -> (usize, usize) {
+        let before = self.text.get(..byte).unwrap_or(&self.text);
+        let line = self.lines.partition_point(|&start| start <= before.len());
+        (line, before[self.lines[line - 1]..].chars().count() + 1)
     }
 
     /// The spot of some bytes within the string written at `spot`: the same characters of the file where the string
@@ -158,13 +178,6 @@ fn list_of(array: &DeArray<'_>, spot: &dyn Fn(Range<usize>) -> Spot) -> Content 
         .iter()
         .map(|value| Node { content: content_of(value.get_ref(), spot), spot: spot(value.span()) });
     Content::List(nodes.collect())
-}
-
-/// Line and column, both from 1, the column in characters.
-fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
-    let before = text.get(..byte).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
 /// The first line, at most 60 characters of it.

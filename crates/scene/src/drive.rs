@@ -112,7 +112,7 @@ impl Builder<'_> {
         run: &Run,
     ) -> Option<Waveform> {
         let file = section.path(key)?;
-        let mut table = match table::read(file, &section.key(key), dimension) {
+        let mut table = match table::read(&self.source.files, file, &section.key(key), dimension) {
             Ok(table) => table,
             Err(mut problems) => {
                 self.problems.append(&mut problems);

@@ -5,6 +5,7 @@ mod check;
 mod document;
 mod drive;
 mod error;
+mod files;
 mod kind;
 pub mod material;
 pub mod opening;

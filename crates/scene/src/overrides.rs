@@ -3,13 +3,22 @@
 use crate::document::{Content, Entry, Node, Source, Spot, override_value};
 use crate::error::Problem;
 
+/// Parts of a key at most: more than any key of the schema has, so that one that goes on is refused before a tree as
+/// deep is built for it.
+const MOST_PARTS: usize = 8;
+
 /// Applies all overrides in order; those that cannot be applied are reported and left out.
 pub(crate) fn apply(source: &Source, root: &mut Node) -> Vec<Problem> {
     let mut problems = Vec::new();
     for (number, (key, value)) in source.overrides.iter().enumerate() {
         let node = override_value(value, number);
-        let segments: Vec<&str> = key.split('.').map(str::trim).collect();
-        if segments.iter().any(|segment| segment.is_empty()) {
+        let segments: Vec<&str> = key.split('.').map(str::trim).take(MOST_PARTS + 1).collect();
+        if segments.len() > MOST_PARTS {
+            problems.push(Problem {
+                allowed: "names joined by dots, such as `particles.spacing`".into(),
+                ..source.problem(&Spot::Override(number), key, "the key has too many parts")
+            });
+        } else if segments.iter().any(|segment| segment.is_empty()) {
             problems.push(Problem {
                 allowed: "names joined by dots, such as `particles.spacing`".into(),
                 ..source.problem(&Spot::Override(number), key, "the key has an empty part")

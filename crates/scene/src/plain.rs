@@ -27,7 +27,7 @@ impl Reader<'_> {
             ),
             (Kind::File, Content::Text(text)) => {
                 let path = self.directory.join(text);
-                if path.is_file() {
+                if self.source.files.has(&path) {
                     return Value::Path(path);
                 }
                 let path = path.strip_prefix(".").unwrap_or(&path);

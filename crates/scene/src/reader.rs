@@ -5,7 +5,7 @@ use std::path::Path;
 
 use vaso_units::nearest;
 
-use crate::document::{Content, Entry, NOWHERE, Node, Source};
+use crate::document::{Content, Entry, Node, Source, Spot};
 use crate::error::Problem;
 use crate::kind::{Key, Kind, Presence, When};
 use crate::plain::{is_name, units_in_use};
@@ -217,5 +217,5 @@ fn default_node(kind: &Kind, text: &str) -> Node {
         Kind::Number(_) => Content::Float(text.parse().expect("defaults of the schema are valid")),
         _ => Content::Text(text.to_owned()),
     };
-    Node { content, spot: NOWHERE }
+    Node { content, spot: Spot::Nowhere }
 }

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::document::Source;
 use crate::error::{Problem, SceneError};
+use crate::files::Files;
 use crate::material::{Blood, Wall};
 use crate::opening::Opening;
 use crate::words::words;
@@ -51,6 +53,22 @@ impl Scene {
     /// [`SceneError`] with every problem found: in the file, in the overrides and in the waveform tables.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         crate::check::load(path, overrides)
+    }
+
+    /// Reads and checks the text of a case without touching the file system.
+    ///
+    /// `files` are the files the case may name, by their path from its folder: the vessel surface, whose content does
+    /// not matter here, and the tables of waveforms. Overrides are those of [`load`](Self::load).
+    ///
+    /// # Errors
+    /// As [`load`](Self::load); the case is called `case.toml` in them.
+    pub fn parse(
+        text: &str,
+        overrides: &[(String, String)],
+        files: &BTreeMap<PathBuf, String>,
+    ) -> Result<Self, SceneError> {
+        let files = Files::Given(files.clone());
+        crate::check::scene(Source::new("case.toml".into(), text.to_owned(), overrides.to_vec(), files))
     }
 
     /// A problem with a key that shows only after loading, such as an opening the surface does not have; it names the

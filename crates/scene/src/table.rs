@@ -6,6 +6,7 @@ use vaso_units::dimension::TIME;
 use vaso_units::{Dimension, parse_unit};
 
 use crate::error::Problem;
+use crate::files::Files;
 
 /// Faults reported of one file; a file of another format has one in every line.
 const MOST_PROBLEMS: usize = 5;
@@ -21,7 +22,12 @@ pub(crate) struct Table {
 /// a comment.
 ///
 /// `key` is the key of the case that names the file.
-pub(crate) fn read(file: &Path, key: &str, dimension: Dimension) -> Result<Table, Vec<Problem>> {
+pub(crate) fn read(
+    files: &Files,
+    file: &Path,
+    key: &str,
+    dimension: Dimension,
+) -> Result<Table, Vec<Problem>> {
     let at = |line: Option<usize>, message: String| Problem {
         line,
         key: key.to_owned(),
@@ -29,8 +35,7 @@ pub(crate) fn read(file: &Path, key: &str, dimension: Dimension) -> Result<Table
         allowed: "two columns, time in s and value in SI units".into(),
         ..Problem::of_file(file.to_owned())
     };
-    let text =
-        std::fs::read_to_string(file).map_err(|error| vec![at(None, format!("cannot be read: {error}"))])?;
+    let text = files.read(file).map_err(|error| vec![at(None, format!("cannot be read: {error}"))])?;
     let mut table = Table { time: Vec::new(), value: Vec::new() };
     let mut units = [1.0, 1.0];
     let mut header_possible = true;

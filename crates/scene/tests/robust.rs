@@ -1,9 +1,11 @@
 //! Files damaged in every single line: loading never panics, and what is refused has problems to show.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use vaso_scene::Scene;
+use vaso_scene::material::ElasticWall;
+use vaso_scene::{Drive, Scene, Wall};
 
 fn load_text(folder: &Path, text: &str) -> bool {
     let file = folder.join("damaged.toml");
@@ -95,5 +97,42 @@ fn any_start_of_a_file_never_panics() {
         for end in (0..text.len()).step_by(5).filter(|&end| text.is_char_boundary(end)) {
             load_text(&case, &text[..end]);
         }
+    }
+}
+
+#[test]
+fn a_text_in_memory_is_read_like_a_file() {
+    let table = fs::read_to_string("tests/files/rise.csv").unwrap();
+    let text = fs::read_to_string("tests/good/wall_alone.toml").unwrap();
+    let files = [("../files/vessel.stl".into(), String::new()), ("../files/rise.csv".into(), table)];
+    let parsed = Scene::parse(&text, &[], &BTreeMap::from(files)).unwrap();
+    let loaded = Scene::load(Path::new("tests/good/wall_alone.toml"), &[]).unwrap();
+    assert_eq!((parsed.numerics, parsed.run, parsed.output), (loaded.numerics, loaded.run, loaded.output));
+    let pressure = |wall| match wall {
+        Wall::Solid(ElasticWall { pressure: Some(Drive::Waveform(wave)), .. }) => (wave.time, wave.value),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(pressure(parsed.wall), pressure(loaded.wall));
+    let problems = Scene::parse(&text, &[], &BTreeMap::new()).expect_err("no files were given").problems;
+    let missing: Vec<&str> = problems.iter().map(|problem| problem.message.as_str()).collect();
+    assert!(missing.contains(&"there is no file \"../files/vessel.stl\""), "{missing:?}");
+}
+
+/// Each part of a key made a table within a table, and a hundred thousand of them more than the stack could hold.
+#[test]
+fn an_override_of_very_many_parts_is_refused() {
+    let deep = ("a.".repeat(100_000) + "a", "1".to_owned());
+    let error = Scene::parse(&good_texts()[0], &[deep], &BTreeMap::new()).expect_err("there is no such key");
+    let found = error.problems.iter().find(|problem| problem.setting.is_some()).unwrap();
+    assert_eq!(found.message, "the key has too many parts");
+}
+
+/// A hundred thousand faults of syntax took a minute to place and are of no use to anybody.
+#[test]
+fn a_text_that_is_no_toml_has_few_problems() {
+    for text in ["\r".repeat(100_000), "=\n".repeat(100_000)] {
+        let error = Scene::parse(&text, &[], &BTreeMap::new()).expect_err("no TOML");
+        assert_eq!(error.problems.len(), 20);
+        assert_eq!(error.problems[0].line, Some(1));
     }
 }

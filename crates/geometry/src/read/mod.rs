@@ -2,7 +2,9 @@
 
 mod stl;
 mod vtk_array;
+mod vtk_blocks;
 mod vtp;
+mod xml;
 
 use std::path::Path;
 
@@ -17,11 +19,14 @@ use crate::{error::GeometryError, surface::Surface};
 pub fn read_surface(path: &Path) -> Result<Surface, GeometryError> {
     let bytes =
         std::fs::read(path).map_err(|source| GeometryError::Read { path: path.to_owned(), source })?;
-    parse(&bytes, path)
+    parse_surface(&bytes, path)
 }
 
 /// Reads a surface from the bytes of a file; `path` is for messages only.
-pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError> {
+///
+/// # Errors
+/// As [`read_surface`].
+pub fn parse_surface(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError> {
     let mut surface = if vtp::is_vtp(bytes) { vtp::parse(bytes, path)? } else { stl::parse(bytes, path)? };
     if surface.triangles.is_empty() {
         return Err(GeometryError::EmptyFile { path: path.to_owned() });
@@ -36,5 +41,9 @@ pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError>
     Ok(surface)
 }
 
+#[cfg(test)]
+mod hostile;
+#[cfg(test)]
+mod samples;
 #[cfg(test)]
 mod tests;

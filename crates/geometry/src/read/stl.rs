@@ -12,11 +12,13 @@ use crate::{error::GeometryError, surface::Surface};
 
 const HEADER: usize = 84;
 const RECORD: u64 = 50;
+/// Each triangle brings three vertices, whose numbers have 32 bits, with one left as a mark.
+const MAX_TRIANGLES: u32 = (u32::MAX - 1) / 3;
 
 /// Reads an STL file.
 pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError> {
     match binary_count(bytes) {
-        Some(count) if bytes.len() as u64 == length(count) => binary(bytes, path),
+        Some(count) if bytes.len() as u64 == length(count) => binary(bytes, count, path),
         announced => match text(bytes) {
             Some(text) => ascii(&text, path),
             None => Err(damaged(announced, bytes, path)),
@@ -47,18 +49,29 @@ fn damaged(announced: Option<u32>, bytes: &[u8], path: &Path) -> GeometryError {
     }
 }
 
-fn binary(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError> {
+fn binary(bytes: &[u8], count: u32, path: &Path) -> Result<Surface, GeometryError> {
+    if count > MAX_TRIANGLES {
+        return Err(too_many(count.into(), path));
+    }
     let mut bytes = bytes.to_vec();
     // The length has decided; a header that starts with "solid" must not decide otherwise.
     bytes[..HEADER - 4].fill(0);
     let failed = |source| GeometryError::Read { path: path.to_owned(), source };
     let mut file = Cursor::new(bytes);
-    let mut surface = Surface::default();
+    // The file is as long as the count says, so it may be trusted.
+    let mut surface = Surface {
+        vertices: Vec::with_capacity(3 * count as usize),
+        triangles: Vec::with_capacity(count as usize),
+    };
     for triangle in stl_io::create_stl_reader(&mut file).map_err(failed)? {
         let corners = triangle.map_err(failed)?.vertices;
         push_triangle(&mut surface, corners.map(|v| DVec3::from_array(v.0.map(f64::from))));
     }
     Ok(surface)
+}
+
+fn too_many(count: u64, path: &Path) -> GeometryError {
+    GeometryError::TooManyTriangles { path: path.to_owned(), count, limit: MAX_TRIANGLES.into() }
 }
 
 /// Adds a triangle with vertices of its own; equal ones become one in the repair.
@@ -166,6 +179,9 @@ fn facets(words: &mut Words, surface: &mut Surface) -> Result<(), GeometryError>
         }
         words.keyword("endloop")?;
         words.keyword("endfacet")?;
+        if surface.triangles.len() >= MAX_TRIANGLES as usize {
+            return Err(too_many(surface.triangles.len() as u64 + 1, words.path));
+        }
         push_triangle(surface, corners);
     }
 }

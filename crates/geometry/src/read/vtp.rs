@@ -3,9 +3,13 @@
 use std::path::Path;
 
 use glam::DVec3;
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
-use super::vtk_array::{Compression, Encoding, Numbers, Scalar, from_base64, from_bytes, from_text};
+use super::{
+    vtk_array::{Budget, Expected, Numbers, Scalar, from_bytes, from_text},
+    vtk_blocks::{Compression, Encoding, Source},
+    xml,
+};
 use crate::{error::GeometryError, surface::Surface};
 
 /// How far into a file its root element is looked for.
@@ -33,13 +37,14 @@ pub(super) fn parse(bytes: &[u8], path: &Path) -> Result<Surface, GeometryError>
     if at.is_some() {
         head.push_str("</VTKFile>");
     }
-    let document = Document::parse(&head).map_err(|e| unusable(format!("damaged XML: {e}")))?;
+    let document = xml::parse(&head).map_err(unusable)?;
     let root = document.root_element();
     if root.attribute("type") != Some("PolyData") {
         let found = root.attribute("type").unwrap_or_default();
         return Err(unusable(format!("it holds \"{found}\", not \"PolyData\"; extract the surface first")));
     }
-    let file = File { path, encoding: encoding(root, path)?, appended };
+    let budget = Budget::new(bytes.len());
+    let mut file = File { path, encoding: encoding(root, path)?, appended, budget };
     let mut surface = Surface::default();
     for piece in root.descendants().filter(|n| n.has_tag_name("Piece")) {
         file.add_piece(piece, &mut surface)?;
@@ -91,20 +96,17 @@ struct File<'a> {
     path: &'a Path,
     encoding: Encoding,
     appended: Option<Appended<'a>>,
+    budget: Budget,
 }
 
 impl File<'_> {
-    fn add_piece(&self, piece: Node, surface: &mut Surface) -> Result<(), GeometryError> {
+    fn add_piece(&mut self, piece: Node, surface: &mut Surface) -> Result<(), GeometryError> {
         let first = surface.vertices.len();
         let Some(points) = child(piece, "Points").and_then(|p| child(p, "DataArray")) else {
             return Ok(());
         };
-        let coordinates =
-            self.numbers(points).map(Numbers::floats).map_err(|r| self.array_error("Points", r))?;
-        if coordinates.len() % 3 != 0 {
-            let reason = format!("{} coordinates are no whole number of points", coordinates.len());
-            return Err(self.array_error("Points", reason));
-        }
+        let coordinates = self.points(piece, points).map_err(|r| self.array_error("Points", r))?;
+        surface.vertices.reserve(coordinates.len() / 3);
         surface.vertices.extend(coordinates.chunks_exact(3).map(DVec3::from_slice));
         let n_points = surface.vertices.len() - first;
         // Vertex numbers are 32 bits wide, and the marker value must stay free.
@@ -113,8 +115,13 @@ impl File<'_> {
         }
         for (section, split) in [("Polys", fan as fn(&[u32], &mut Vec<[u32; 3]>)), ("Strips", strip)] {
             let Some(cells) = child(piece, section) else { continue };
-            let connectivity = self.indices(cells, section, "connectivity")?;
-            let offsets = self.indices(cells, section, "offsets")?;
+            let n_cells = count(piece, &format!("NumberOf{section}"), 1)
+                .map_err(|r| self.array_error(&format!("{section}/offsets"), r))?;
+            let offsets = self.indices(cells, section, "offsets", n_cells)?;
+            let last = offsets.last().copied().unwrap_or(0);
+            let asked = Expected { count: last as u64, by: "the end of the last cell".to_owned() };
+            let connectivity = self.indices(cells, section, "connectivity", Some(asked))?;
+            surface.triangles.reserve(connectivity.len().saturating_sub(offsets.len().saturating_mul(2)));
             let mut start = 0;
             for (cell, &end) in offsets.iter().enumerate() {
                 let Some(corners) = connectivity.get(start..end) else {
@@ -136,12 +143,31 @@ impl File<'_> {
         Ok(())
     }
 
+    fn points(&mut self, piece: Node, array: Node) -> Result<Vec<f64>, String> {
+        let components = array.attribute("NumberOfComponents").unwrap_or("3");
+        if components != "3" {
+            return Err(format!("`NumberOfComponents` = \"{components}\", but a point has 3 coordinates"));
+        }
+        let expected = count(piece, "NumberOfPoints", 3)?;
+        let coordinates = self.numbers(array, expected).map(Numbers::floats)?;
+        if coordinates.len() % 3 != 0 {
+            return Err(format!("{} coordinates are no whole number of points", coordinates.len()));
+        }
+        Ok(coordinates)
+    }
+
     /// An index array of a section; empty when the section has none, as writers do for no cells.
-    fn indices(&self, cells: Node, section: &str, name: &str) -> Result<Vec<usize>, GeometryError> {
+    fn indices(
+        &mut self,
+        cells: Node,
+        section: &str,
+        name: &str,
+        expected: Option<Expected>,
+    ) -> Result<Vec<usize>, GeometryError> {
         let array =
             cells.children().find(|n| n.has_tag_name("DataArray") && n.attribute("Name") == Some(name));
         let Some(array) = array else { return Ok(Vec::new()) };
-        self.numbers(array)
+        self.numbers(array, expected)
             .and_then(Numbers::indices)
             .map_err(|reason| self.array_error(&format!("{section}/{name}"), reason))
     }
@@ -151,33 +177,39 @@ impl File<'_> {
     }
 
     /// Decodes a data array in whatever way it is stored.
-    fn numbers(&self, array: Node) -> Result<Numbers, String> {
+    fn numbers(&mut self, array: Node, expected: Option<Expected>) -> Result<Numbers, String> {
         let scalar = Scalar::named(array.attribute("type").unwrap_or_default())?;
         let text = array.text().unwrap_or_default();
-        match array.attribute("format").unwrap_or("ascii") {
-            "ascii" => from_text(text, scalar),
-            "binary" => {
-                let bytes = from_base64(text.as_bytes())?;
-                // Writers leave an empty array without even a header.
-                if bytes.is_empty() {
-                    return from_text("", scalar);
-                }
-                from_bytes(&bytes, self.encoding, scalar)
-            }
+        let expected = expected.as_ref();
+        let format = array.attribute("format").unwrap_or("ascii");
+        let mut source = match format {
+            "ascii" => return from_text(text, scalar, expected, &mut self.budget),
+            "binary" => Source::base64(text.as_bytes()),
             "appended" => {
                 let appended = self.appended.as_ref().ok_or("the file has no appended data")?;
                 let offset = array.attribute("offset").unwrap_or_default();
                 let data = offset.parse().ok().and_then(|at: usize| appended.data.get(at..));
-                let data = data.ok_or_else(|| format!("offset \"{offset}\" is not within the file"))?;
-                if appended.is_base64 {
-                    from_bytes(&from_base64(data)?, self.encoding, scalar)
-                } else {
-                    from_bytes(data, self.encoding, scalar)
-                }
+                let data = data.ok_or_else(|| {
+                    format!("offset \"{offset}\" is not within the {} bytes appended", appended.data.len())
+                })?;
+                if appended.is_base64 { Source::base64(data) } else { Source::Raw(data) }
             }
-            other => Err(format!("unknown format \"{other}\"")),
+            other => return Err(format!("unknown format \"{other}\"")),
+        };
+        // Writers leave an empty array inline without even a header.
+        if format == "binary" && source.is_empty() {
+            return from_text("", scalar, expected, &mut self.budget);
         }
+        from_bytes(&mut source, self.encoding, scalar, expected, &mut self.budget)
     }
+}
+
+/// The number of values that an attribute of a piece asks for, some for each of what it counts.
+fn count(piece: Node, attribute: &str, values_each: u64) -> Result<Option<Expected>, String> {
+    let Some(text) = piece.attribute(attribute) else { return Ok(None) };
+    let count: u64 = text.trim().parse().map_err(|_| format!("`{attribute}` = \"{text}\" is no count"))?;
+    let by = format!("`{attribute}` = \"{text}\"");
+    Ok(Some(Expected { count: count.saturating_mul(values_each), by }))
 }
 
 fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {

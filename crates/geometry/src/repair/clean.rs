@@ -4,7 +4,7 @@ use std::ops::AddAssign;
 
 use super::{
     edges::{Edges, NONE},
-    flip::flip,
+    flip::Flips,
     keep_triangles,
 };
 use crate::surface::Surface;
@@ -113,12 +113,11 @@ pub(crate) fn flip_slivers(surface: &mut Surface) -> usize {
         if slivers.is_empty() {
             break;
         }
-        let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
-        let mut touched = vec![false; surface.triangles.len()];
+        let mut flips = Flips::new(&surface.triangles);
         let before = flipped;
         for t in slivers {
             let longest = longest_side(surface, t);
-            flipped += usize::from(flip(&mut surface.triangles, t, longest, &across, &mut touched));
+            flipped += usize::from(flips.flip(&mut surface.triangles, t, longest));
         }
         if flipped == before {
             break;

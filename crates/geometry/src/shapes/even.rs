@@ -6,13 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::junction::Junction;
-use crate::{
-    repair::{
-        edges::{Edges, NONE},
-        flip::flip,
-    },
-    surface::Surface,
-};
+use crate::{repair::flip::Flips, surface::Surface};
 
 /// Rounds of exchanging and moving, and the passes of each.
 const ROUNDS: usize = 6;
@@ -33,23 +27,19 @@ pub(super) fn even_out(junction: &Junction, fixed: &[u32], surface: &mut Surface
 /// among all triangles between the same points those have the largest smallest angles.
 fn flip_to_delaunay(surface: &mut Surface) {
     for _ in 0..FLIP_PASSES {
-        let across = Edges::new(&surface.triangles).neighbours(surface.triangles.len());
-        let mut touched = vec![false; surface.triangles.len()];
+        let mut flips = Flips::new(&surface.triangles);
         for t in 0..surface.triangles.len() {
             for k in 0..3 {
-                let other = across[t][k];
-                if other == NONE || touched[t] || touched[other as usize] {
-                    continue;
-                }
+                let Some(other) = flips.across(t, k) else { continue };
                 let [a, b, apex] = [0, 1, 2].map(|i| surface.triangles[t][(k + i) % 3]);
-                let far = surface.triangles[other as usize].into_iter().find(|&v| v != a && v != b);
+                let far = surface.triangles[other].into_iter().find(|&v| v != a && v != b);
                 let angle = |v: u32| {
                     let [v, a, b] = [v, a, b].map(|v| surface.vertices[v as usize]);
                     (a - v).angle_between(b - v)
                 };
                 // A little more than half a turn, so that rounding does not exchange to and fro.
                 if far.is_some_and(|far| angle(apex) + angle(far) > 0.5 * TAU + 1e-6) {
-                    flip(&mut surface.triangles, t, k, &across, &mut touched);
+                    flips.flip(&mut surface.triangles, t, k);
                 }
             }
         }
