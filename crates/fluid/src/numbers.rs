@@ -1,12 +1,16 @@
 //! The numbers a fluid run is made with.
 
+use crate::rheology::Rheology;
+
 /// Constants of the blood and of its discretisation, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numbers {
     /// Rest density rho0 \[kg/m^3\].
     pub rest_density: f64,
-    /// Dynamic viscosity mu \[Pa s\].
+    /// Dynamic viscosity mu \[Pa s\]; with a law of the shear rate the largest it gives, which bounds the step.
     pub viscosity: f64,
+    /// Law for the viscosity; without, it is the same everywhere.
+    pub rheology: Option<Rheology>,
     /// Numerical sound speed c \[m/s\].
     pub sound_speed: f64,
     /// Velocity the sound speed was chosen for \[m/s\]; bounds the advective step from above.
@@ -41,6 +45,7 @@ impl Numbers {
         Self {
             rest_density,
             viscosity,
+            rheology: None,
             sound_speed: 10.0 * reference_speed,
             reference_speed,
             spacing,

@@ -2,7 +2,9 @@
 
 use crate::fluid::{Fluid, Frozen, numbered};
 use crate::law::offset::Offset;
+use crate::law::thinning::{self, ThinningViscosity};
 use crate::law::viscosity::{FLUID_SUMS, FluidViscosity, WALL_SUMS, WallViscosity};
+use crate::rheology::{Rheology, shear_rate};
 use crate::summation::pack_sym;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -25,7 +27,7 @@ impl<R: Real> Fluid<R> {
 
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
-        let (mu, rho0) = (self.numbers.viscosity, self.numbers.rest_density);
+        let (mu, rho0, rheology) = (self.numbers.viscosity, self.numbers.rest_density, self.numbers.rheology);
         let density_change = &self.state.density_change;
         let (isa, frame) = (self.isa, &self.frame);
         let (current, second, wall) = (&self.current, &self.second, &self.wall);
@@ -62,7 +64,11 @@ impl<R: Real> Fluid<R> {
                     let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
                     let rho = rho0 + density_change[c * CHUNK + k];
                     let drag = DVec3::new(f[3] + w[0], f[4] + w[1], f[5] + w[2]);
-                    frozen.acceleration = -gradient * mu / (support * rho) * drag;
+                    // With a law of the shear rate, what fluid pairs add is found anew once it is known.
+                    frozen.acceleration = match rheology {
+                        None => -gradient * mu / (support * rho) * drag,
+                        Some(_) => -gradient / (support * rho) * DVec3::new(w[0], w[1], w[2]),
+                    };
                     let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
                     set_gradient_sums(frozen, neighbours);
                     let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
@@ -70,6 +76,9 @@ impl<R: Real> Fluid<R> {
                 }
             });
 
+        if let Some(rheology) = rheology {
+            self.thinning(&rheology);
+        }
         let strain = &self.strain;
         self.second.fill(|i| pack_sym(&strain[i]));
         self.offsets.resize_for(self.rows.chunks());
@@ -83,6 +92,45 @@ impl<R: Real> Fluid<R> {
         self.offsets.chunks_mut().par_iter_mut().zip(self.rows.chunks()).enumerate().for_each(
             |(c, (store, row))| {
                 sweep(isa, &Offset, &gather, numbered(row, c), Store::Write(store), &mut [[]; CHUNK]);
+            },
+        );
+    }
+}
+
+impl<R: Real> Fluid<R> {
+    /// Adds the viscous acceleration between fluid particles of a shear-rate dependent viscosity, and weighs that
+    /// of the wall with the particle's own.
+    fn thinning(&mut self, rheology: &Rheology) {
+        let support = self.kernel.support();
+        let (gradient, rho0) = (self.kernel.gradient_scale(), self.numbers.rest_density);
+        // The strain is kept in units of half a support.
+        let per_scale = 2.0 / support;
+        self.current.as_mut_slice().par_iter_mut().zip(&self.strain).with_min_len(1024).for_each(
+            |(record, strain)| {
+                let eta = rheology.viscosity(per_scale * shear_rate(strain));
+                record[7] = R::pack(1.0 / eta);
+            },
+        );
+        let density_change = &self.state.density_change;
+        let (isa, current, strain) = (self.isa, &self.current, &self.strain);
+        let gather = Gather {
+            frame: &self.frame,
+            own: current,
+            other: current,
+            own_second: Some(&self.second),
+            other_second: Some(&self.second),
+        };
+        (self.frozen.par_chunks_mut(CHUNK), self.rows.chunks()).into_par_iter().enumerate().for_each(
+            |(c, (frozen, row))| {
+                let mut sums = [[0.0; thinning::SUMS]; CHUNK];
+                sweep(isa, &ThinningViscosity, &gather, numbered(row, c), Store::None, &mut sums);
+                for (k, frozen) in frozen.iter_mut().enumerate() {
+                    let i = c * CHUNK + k;
+                    let eta = rheology.viscosity(per_scale * shear_rate(&strain[i]));
+                    let rho = rho0 + density_change[i];
+                    let drag = -gradient / (support * rho) * DVec3::from_array(sums[k]);
+                    frozen.acceleration = eta * frozen.acceleration + drag;
+                }
             },
         );
     }

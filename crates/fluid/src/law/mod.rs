@@ -8,6 +8,7 @@ pub mod density;
 pub mod moments;
 pub mod offset;
 pub mod pressure;
+pub mod thinning;
 pub mod viscosity;
 pub mod wall_pressure;
 
