@@ -15,8 +15,7 @@ use crate::section::Section;
 use crate::words::Word;
 
 pub(crate) fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
-    let file = case_file(path);
-    let mut source = Source { file, text: String::new(), overrides: overrides.to_vec() };
+    let mut source = Source { file: case_file(path), text: String::new(), overrides: overrides.to_vec() };
     match std::fs::read_to_string(&source.file) {
         Ok(text) => source.text = text,
         Err(error) => {
@@ -25,15 +24,31 @@ pub(crate) fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene,
             return Err(SceneError { problems: vec![Problem { allowed, ..problem }] });
         }
     }
+    read(&source)
+}
+
+/// What stands in the case of a bare surface: enough to be complete, and nothing about its openings.
+const BARE: &str = "[blood]\n[run]\nend_time = \"1 s\"\n";
+
+pub(crate) fn of_surface(surface: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
+    let name = |part: Option<&std::ffi::OsStr>| {
+        toml::Value::from(part.unwrap_or_default().to_string_lossy().as_ref())
+    };
+    let (title, file) = (name(surface.file_stem()), name(surface.file_name()));
+    let text = format!("{BARE}[case]\ntitle = {title}\n[geometry]\nsurface = {file}\n");
+    read(&Source { file: surface.to_owned(), text, overrides: overrides.to_vec() })
+}
+
+fn read(source: &Source) -> Result<Scene, SceneError> {
     let mut root = source.parse().map_err(|problems| SceneError { problems })?;
-    let overriding = overrides::apply(&source, &mut root);
+    let overriding = overrides::apply(source, &mut root);
     let directory = match source.file.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let mut reader = Reader { source: &source, directory, problems: overriding };
+    let mut reader = Reader { source, directory, problems: overriding };
     let sections = reader.root(&root);
-    let mut builder = Builder { source: &source, problems: reader.problems };
+    let mut builder = Builder { source, problems: reader.problems };
     let scene = builder.scene(&sections, directory);
     if builder.problems.is_empty() {
         return Ok(scene.expect("a part that cannot be built has been reported"));
@@ -74,6 +89,7 @@ impl Builder<'_> {
             particles: self.particles(root.section("particles")?)?,
             blood: blood.map_or(Some(None), |blood: Option<Blood>| blood.map(Some))?,
             wall: wall?,
+            wall_body: root.section("wall").map(|section| self.wall_body(section)).unwrap_or_default(),
             openings: openings.into_iter().collect::<Option<_>>()?,
             probes,
             numerics: self.numerics(root.section("numerics")?)?,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Problem, SceneError};
-use crate::material::{Blood, Wall};
+use crate::material::{Blood, Wall, WallBody};
 use crate::opening::Opening;
 use crate::words::words;
 
@@ -25,6 +25,8 @@ pub struct Scene {
     pub blood: Option<Blood>,
     /// The vessel wall.
     pub wall: Wall,
+    /// How it is made of particles.
+    pub wall_body: WallBody,
     /// Conditions at the openings in the order of the file. Empty until the openings have been looked at with
     /// `vaso check`; a run with blood needs one for each opening of the surface.
     pub openings: Vec<Opening>,
@@ -51,6 +53,15 @@ impl Scene {
     /// [`SceneError`] with every problem found: in the file, in the overrides and in the waveform tables.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
         crate::check::load(path, overrides)
+    }
+
+    /// A scene of a bare surface, to be filled with particles: its walls are rigid, nothing is said about its openings
+    /// and all else comes from the overrides, `particles.spacing` at least.
+    ///
+    /// # Errors
+    /// As for [`Self::load`].
+    pub fn of_surface(surface: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        crate::check::of_surface(surface, overrides)
     }
 
     /// A problem with a key that shows only after loading, such as an opening the surface does not have; it names the
@@ -82,6 +93,8 @@ pub struct Particles {
     pub spacing: f64,
     /// Where they are placed first.
     pub generator: Generator,
+    /// Sweeps of elliptic smoothing of the sections of blocks.
+    pub smoothing_sweeps: usize,
     /// Relaxation steps after placing.
     pub relaxation_steps: u32,
 }
