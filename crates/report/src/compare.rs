@@ -77,10 +77,10 @@ fn qualities(report: &CompareReport) -> String {
     let columns = [
         Column::Words("generator"),
         Column::Numbers("particles", ""),
-        Column::Numbers("nearest neighbour", "min"),
+        Column::Numbers("neighbour", "min"),
         Column::Numbers("", "variation"),
         Column::Numbers("volume", "variation"),
-        Column::Numbers("kernel sum", "mean ± std"),
+        Column::Numbers("kernel sum", ""),
         Column::Numbers("h|G|", "rms"),
         Column::Numbers("volume error", ""),
         Column::Numbers("outside", ""),
@@ -106,8 +106,8 @@ fn qualities(report: &CompareReport) -> String {
     let rows: Vec<Vec<String>> = report.generators.iter().map(row).collect();
     table("Generators", &columns, &rows)
         + &format!(
-            "<p class=\"soft\">Variation is standard deviation over mean; the kernel sum is that of particles with full \
-             support over that of a cubic lattice; G is the sum of kernel gradients, completed by what the wall cuts off. \
+            "<p class=\"soft\">Neighbour is the distance to the nearest one. Variation is standard deviation over mean; the kernel sum is that of particles with full \
+             support (mean ± standard deviation) over that of a cubic lattice; G is the sum of kernel gradients, completed by what the wall cuts off. \
              Times are wall times on {threads} threads, of one run each, and the machine may have had other work.</p>\n"
         )
 }
