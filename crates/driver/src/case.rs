@@ -2,7 +2,7 @@
 
 use crate::error::DriverError;
 use glam::DVec3;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use vaso_geometry::{LengthUnit, Vessel, prepare, read_surface};
 use vaso_scene::Scene;
 
@@ -14,6 +14,8 @@ pub struct Case {
     pub vessel: Vessel,
     /// For each opening of the vessel, the opening of the scene it is.
     pub scene_opening: Vec<Option<usize>>,
+    /// Folder of the particle cache; a bare surface has none.
+    pub cache: Option<PathBuf>,
 }
 
 /// Farthest a `near` point may lie from its opening, in radii of the opening.
@@ -26,15 +28,21 @@ impl Case {
     /// When either is wrong, or the openings of the case are not those of the surface.
     pub fn load(path: &Path, overrides: &[(String, String)]) -> Result<Self, DriverError> {
         let scene = Scene::load(path, overrides)?;
-        let unit = match &scene.geometry.unit {
-            Some(text) => Some(text.parse::<LengthUnit>().map_err(|e| {
-                DriverError::input(format!("{}: `geometry.unit`: {e}", scene.file.display()))
-            })?),
-            None => None,
-        };
-        let vessel = load_vessel(&scene.geometry.surface, unit)?;
+        let vessel = load_vessel(&scene.geometry.surface, unit(&scene)?)?;
         let scene_opening = match_openings(&scene, &vessel)?;
-        Ok(Self { scene, vessel, scene_opening })
+        let cache = Some(scene.directory.join(".vaso-cache"));
+        Ok(Self { scene, vessel, scene_opening, cache })
+    }
+
+    /// A bare surface with all that is to be said about its particles in `settings`, as for `--set`.
+    ///
+    /// # Errors
+    /// When a setting or the surface is wrong.
+    pub fn of_surface(file: &Path, settings: &[(String, String)]) -> Result<Self, DriverError> {
+        let scene = Scene::of_surface(file, settings)?;
+        let vessel = load_vessel(file, unit(&scene)?)?;
+        let scene_opening = vec![None; vessel.openings.len()];
+        Ok(Self { scene, vessel, scene_opening, cache: None })
     }
 
     /// Name of opening `k` of the vessel: that of the case, or its rank by area.
@@ -44,6 +52,12 @@ impl Case {
             None => rank_name(k),
         }
     }
+}
+
+/// Unit of the coordinates, where the scene names one.
+fn unit(scene: &Scene) -> Result<Option<LengthUnit>, DriverError> {
+    let parsed = scene.geometry.unit.as_deref().map(str::parse::<LengthUnit>).transpose();
+    parsed.map_err(|e| DriverError::input(format!("{}: `geometry.unit`: {e}", scene.file.display())))
 }
 
 /// Name of an opening the case says nothing about.

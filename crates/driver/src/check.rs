@@ -1,5 +1,6 @@
 //! `vaso check`: what would run, without running it.
 
+use crate::bodies::remembered_warnings;
 use crate::case::{Case, load_vessel, rank_name};
 use crate::error::DriverError;
 use crate::plan::Plan;
@@ -27,7 +28,8 @@ pub fn case(path: &Path, overrides: &[(String, String)]) -> Result<Checked, Driv
     if case.scene.openings.is_empty() {
         return Ok(vessel(&case.vessel, &case.scene.geometry.surface));
     }
-    let plan = Plan::new(&case)?;
+    let mut plan = Plan::new(&case)?;
+    plan.warnings.extend(remembered_warnings(&case));
     let mut report = CheckReport {
         surface: surface_report(&case.vessel),
         numbers: Some(numbers(&plan)),

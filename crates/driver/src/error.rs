@@ -1,6 +1,7 @@
 //! What ends the program early, and the exit code that tells scripts why.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use vaso_generation::GenerationError;
 
 /// Everything that can stop a command.
 #[derive(Debug, thiserror::Error)]
@@ -18,12 +19,14 @@ pub enum DriverError {
         source: vaso_geometry::GeometryError,
     },
     /// The particles.
-    #[error("{file}: `particles.spacing`: {source}", file = file.display())]
+    #[error("{file}: `{key}`: {source}", file = file.display())]
     Generation {
-        /// The case file.
+        /// The case file, or the bare surface.
         file: PathBuf,
+        /// Key of the case that decides about it.
+        key: &'static str,
         /// Why there are none.
-        source: vaso_generation::GenerationError,
+        source: GenerationError,
     },
     /// Case and surface do not go together, or ask for what this version does not have.
     #[error("{}", problems.join("\n"))]
@@ -56,12 +59,23 @@ impl DriverError {
         Self::Input { problems: vec![problem.into()] }
     }
 
+    /// Why there are no particles, with the key of the case that decides about it.
+    pub(crate) fn generation(file: &Path, source: GenerationError) -> Self {
+        let key = match &source {
+            GenerationError::Setting { key: "thickness", .. } => "wall.thickness",
+            GenerationError::Setting { key: "smoothing", .. } => "numerics.smoothing_length",
+            GenerationError::NoWall { .. } => "geometry.surface",
+            _ => "particles.spacing",
+        };
+        Self::Generation { file: file.to_owned(), key, source }
+    }
+
     /// Exit code: 1 the run broke down, 2 the input is wrong, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         use vaso_io::IoError;
         match self {
             Self::Scene(_) | Self::Geometry { .. } | Self::Generation { .. } | Self::Input { .. } => 2,
-            Self::Io(IoError::Finished { .. } | IoError::Foreign { .. }) => 2,
+            Self::Io(IoError::Finished { .. } | IoError::Foreign { .. } | IoError::Exists { .. }) => 2,
             Self::Io(_) | Self::Report(_) | Self::Diverged(_) => 1,
             Self::Interrupted { .. } => 130,
         }

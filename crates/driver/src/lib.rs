@@ -1,16 +1,21 @@
 #![doc = include_str!("../README.md")]
 
+pub mod bodies;
 pub mod case;
 pub mod check;
 pub mod checkpoint;
+pub mod compare;
 pub mod error;
 pub mod estimate;
+pub mod extrusion;
 pub mod flow;
+mod kept;
 pub mod ledger;
 pub mod particles;
 pub mod plan;
 pub mod print;
 pub mod progress;
+pub mod quality;
 pub mod results;
 pub mod run;
 mod supported;

@@ -1,79 +1,16 @@
 //! The `vaso` binary: commands on case folders.
 
-use clap::{Args, Parser, Subcommand};
+mod flags;
+
+use clap::Parser;
+use flags::{Cli, Command, Common, ParticlesFlags};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vaso_driver::run::Talk;
-use vaso_driver::{Case, DriverError, Plan, check, particles, run};
+use vaso_driver::{Case, DriverError, Plan, check, compare, particles, run};
 use vaso_geometry::LengthUnit;
-
-/// Blood flow in a vessel surface by smoothed particle hydrodynamics.
-#[derive(Parser)]
-#[command(name = "vaso", version, arg_required_else_help = true)]
-struct Cli {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    /// Read everything, build nothing heavy: audit, openings, plan, expected cost.
-    Check {
-        #[command(flatten)]
-        common: Common,
-        /// Unit of the coordinates, for a bare surface: m, cm, mm or um.
-        #[arg(long)]
-        unit: Option<String>,
-    },
-    /// Surface to particles only, with a quality report.
-    Particles {
-        #[command(flatten)]
-        common: Common,
-    },
-    /// The main job: everything from the case to the report.
-    Run {
-        #[command(flatten)]
-        common: Common,
-        /// Write over a finished output folder.
-        #[arg(long)]
-        force: bool,
-    },
-    /// Make the one-file report of an output folder again.
-    Report {
-        /// Output folder of a run.
-        out: PathBuf,
-    },
-}
-
-#[derive(Args)]
-struct Common {
-    /// Case folder or case.toml (for `check` also a bare surface).
-    case: PathBuf,
-    /// Output folder; default: `out` in the case folder.
-    #[arg(long)]
-    out: Option<PathBuf>,
-    /// Worker threads; default: one a core.
-    #[arg(long)]
-    threads: Option<usize>,
-    /// Override of the case, `key.path=value`; may be given several times.
-    #[arg(long, value_name = "KEY=VALUE", value_parser = setting)]
-    set: Vec<(String, String)>,
-    /// Say nothing but errors.
-    #[arg(long)]
-    quiet: bool,
-    /// Machine-readable result on standard output.
-    #[arg(long)]
-    json: bool,
-}
-
-fn setting(text: &str) -> Result<(String, String), String> {
-    match text.split_once('=') {
-        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
-        _ => Err(format!("\"{text}\" is not of the form key.path=value")),
-    }
-}
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -105,15 +42,7 @@ fn execute(command: Command) -> Result<(), DriverError> {
             }
             Ok(())
         }
-        Command::Particles { common } => {
-            set_threads(&common)?;
-            let case = Case::load(&common.case, &common.set)?;
-            let report = particles::particles(&case, &out_folder(&common, &case), &talk(&common))?;
-            if common.json {
-                println!("{}", report.to_json());
-            }
-            Ok(())
-        }
+        Command::Particles(flags) => make_particles(&flags),
         Command::Run { common, force } => {
             set_threads(&common)?;
             let case = Case::load(&common.case, &common.set)?;
@@ -139,6 +68,36 @@ fn execute(command: Command) -> Result<(), DriverError> {
             Ok(())
         }
     }
+}
+
+fn make_particles(flags: &ParticlesFlags) -> Result<(), DriverError> {
+    let common = &flags.common;
+    set_threads(common)?;
+    let settings = flags.settings();
+    let case = if is_surface(&common.case) {
+        if !settings.iter().any(|(key, _)| key == "particles.spacing") {
+            let file = common.case.display();
+            return Err(DriverError::input(format!(
+                "{file}: a bare surface says nothing about the spacing of its particles; give it by --spacing, such as \
+                 --spacing \"0.4 mm\""
+            )));
+        }
+        Case::of_surface(&common.case, &settings)?
+    } else {
+        Case::load(&common.case, &settings)?
+    };
+    let (out, talk) = (out_folder(common, &case), talk(common));
+    let answer = match &flags.compare {
+        Some(generators) => compare::compare(&case, generators, &out, flags.force, &talk)?.to_json(),
+        None => {
+            let job = flags.job(case.scene.wall_body.thickness)?;
+            particles::particles(&case, &job, &out, &talk)?.to_json()
+        }
+    };
+    if common.json {
+        println!("{answer}");
+    }
+    Ok(())
 }
 
 fn talk(common: &Common) -> Talk {

@@ -106,7 +106,7 @@ impl Plan {
             scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
 
         let mut warnings = case.vessel.audit.notices.clone();
-        let settings = crate::world::generation_settings(scene);
+        let settings = crate::bodies::settings(scene);
         warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(ToString::to_string));
         if across < 12.0 {
             warnings.push(format!(

@@ -60,6 +60,12 @@ pub fn run(
         bodies.seconds.iter().sum::<f64>(),
         if bodies.cached { " (from the cache)" } else { "" }
     ));
+    let mut plan = plan.clone();
+    for notice in &bodies.notices {
+        talk.say(&format!("warning  {notice}"));
+        plan.warnings.push(notice.clone());
+    }
+    let plan = &plan;
     let out = OutputDir::prepare(out, force)?;
     match plan.precision {
         Precision::Mixed => run_precision::<f32>(case, plan, bodies, &out, stop, talk, progress, started),

@@ -1,9 +1,11 @@
 //! What this version can run, and every effect it knows.
 
+use crate::bodies::wall_shape;
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::PlannedOpening;
 use vaso_boundary::{Condition, Source};
+use vaso_generation::Ends;
 use vaso_io::EffectEntry;
 use vaso_scene::material::Viscosity;
 use vaso_scene::{Blood, Condition as Asked, Field, Profile, Scene, Wall, Word};
@@ -15,6 +17,16 @@ use vaso_scene::{Blood, Condition as Asked, Field, Profile, Scene, Wall, Word};
 pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     let scene = &case.scene;
     let mut problems = Vec::new();
+    let (thickness, ends) = wall_shape(scene);
+    let reach = 2.0 * scene.numerics.smoothing_length;
+    if matches!(scene.wall, Wall::Rigid) && thickness < reach * scene.particles.spacing {
+        problems.push(format!(
+            "{}: `wall.thickness` is {:.3} mm, less than the {reach} spacings that the fluid sees of a rigid wall; leave \
+             it out or make it thicker",
+            scene.file.display(),
+            1e3 * thickness
+        ));
+    }
     let mut refuse = |key: String, seen: &str, allowed: &str| {
         problems.push(format!(
             "{}: `{key}` is \"{seen}\", which this version does not have; allowed: {allowed}",
@@ -28,6 +40,9 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
             _ => "shell",
         };
         refuse("wall.model".into(), seen, "\"rigid\"");
+    } else if !matches!(ends, Ends::Collar { .. }) {
+        let seen = if matches!(ends, Ends::Boxes) { "boxes" } else { "closest-cap" };
+        refuse("wall.open_ends".into(), seen, "\"collar\"");
     }
     for opening in &scene.openings {
         let key = |field: &str| format!("opening.{}.{field}", opening.name);

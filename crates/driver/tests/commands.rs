@@ -128,17 +128,6 @@ impl StatusOk for Command {
 }
 
 #[test]
-fn particles_come_with_their_quality() {
-    let folder = tempfile::tempdir().expect("a temporary folder can be had");
-    pipe(folder.path());
-    let report = json(coarse(folder.path(), "particles").arg("--json"));
-    let fluid = &report["quality"]["fluid"];
-    assert_eq!(fluid["outside"], 0);
-    assert!(fluid["nearest_neighbor_min"].as_f64().is_some_and(|x| x > 0.65), "{fluid}");
-    assert!(folder.path().join("out/particles.vtkhdf").exists());
-}
-
-#[test]
 fn wrong_input_ends_with_two_and_writes_nothing() {
     let folder = tempfile::tempdir().expect("a temporary folder can be had");
     pipe(folder.path());

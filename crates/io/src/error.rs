@@ -85,6 +85,12 @@ pub enum IoError {
         /// Output folder.
         path: PathBuf,
     },
+    /// A file is in the way of a result.
+    #[error("{path:?} exists; pass `--force` to write over it or choose another name or folder")]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
     /// The output folder holds a file of an output's name that no run of ours is known to have written.
     #[error(
         "{path:?} holds {file:?} but no `summary.json` of a run, so it may be somebody's own; \

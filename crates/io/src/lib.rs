@@ -5,6 +5,7 @@ mod atomic;
 mod cache;
 mod check;
 mod error;
+mod generated;
 mod hdf5;
 mod json;
 mod output;
@@ -19,8 +20,11 @@ pub use atomic::write as write_whole;
 pub use cache::{Cache, CacheKey, KeyBuilder};
 pub use check::{CheckReport, EffectEntry, Numbers, OpeningEntry, Predicted, SurfaceReport};
 pub use error::IoError;
+pub use generated::{
+    Blocks, CompareReport, ComparedGenerator, Extrusion, Histogram, IntersectionEntry, ParticlesReport,
+    Quality, ShellReport, WallReport,
+};
 pub use output::OutputDir;
-pub use particles::{ParticlesReport, Quality};
 pub use series::{FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, read_series_info};
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};

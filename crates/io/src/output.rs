@@ -59,6 +59,22 @@ impl OutputDir {
         Ok(output)
     }
 
+    /// Refuses files that are in the way of results, before any work is done for them.
+    ///
+    /// # Errors
+    /// [`IoError::Exists`] for the first of `files` that is there, unless `force` is given; a folder of that name is in
+    /// the way in any case.
+    pub fn keep_clear(files: impl IntoIterator<Item = PathBuf>, force: bool) -> Result<(), IoError> {
+        let in_the_way = |file: &PathBuf| match std::fs::symlink_metadata(file) {
+            Ok(found) => !force || found.is_dir(),
+            Err(_) => false,
+        };
+        match files.into_iter().find(in_the_way) {
+            Some(path) => Err(IoError::Exists { path }),
+            None => Ok(()),
+        }
+    }
+
     /// Takes the folder as it is, to add to it (`vaso particles`, `resume`, `report`); creates it if need be.
     ///
     /// # Errors
@@ -125,6 +141,19 @@ mod tests {
             names(folder.path()),
             ["notes.txt", "old fluid.vtkhdf", "particles.json", "report.html", "summary.json"]
         );
+    }
+
+    #[test]
+    fn files_in_the_way_stay_unless_forced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        OutputDir::keep_clear([path("a"), path("no/such/b")], false).unwrap();
+        fs::write(path("b"), "mine").unwrap();
+        let error = OutputDir::keep_clear([path("a"), path("b")], false).unwrap_err();
+        assert!(matches!(&error, IoError::Exists { path } if path.ends_with("b")), "{error}");
+        OutputDir::keep_clear([path("a"), path("b")], true).unwrap();
+        fs::create_dir(path("c")).unwrap();
+        assert!(OutputDir::keep_clear([path("c")], true).is_err());
     }
 
     #[test]

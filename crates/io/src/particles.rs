@@ -1,12 +1,7 @@
-//! What `vaso particles` leaves: `particles.vtkhdf`, all bodies in one file of one frame, and
-//! `particles.json`, their quality.
+//! `particles.vtkhdf`: all bodies that `vaso particles` made, in one file of one frame.
 
-use crate::check::{OpeningEntry, SurfaceReport};
-use crate::summary::ParticleCounts;
-use crate::{Frame, IoError, SeriesWriter, json, schema};
+use crate::{Frame, IoError, SeriesWriter, schema};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Which body a particle belongs to: the value of the point field `Body`.
@@ -33,122 +28,65 @@ impl BodyKind {
 }
 
 /// One generated body.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct BodyParticles<'a> {
     /// Which body.
     pub kind: BodyKind,
     /// Positions \[m\].
     pub position: &'a [DVec3],
-    /// Volume of each particle \[m^3\].
-    pub volume: &'a [f64],
     /// Unit normals out of the lumen; empty for a body without (written as zero vectors).
     pub normal: &'a [DVec3],
-    /// Distances outside the lumen surface \[m\]; empty for a body without (written as zeros).
-    pub depth: &'a [f64],
+    /// Other quantities by the name of their field, one value a particle. One that another body lacks is written as
+    /// zeros there.
+    pub scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// Writes all bodies into one VTKHDF file with the point fields `Body`, `Volume`, `Normal`, `Depth` and `Id`
-/// (the index within the body). ParaView's threshold on `Body` shows one of them alone.
+/// Writes all bodies into one VTKHDF file with the point fields `Body`, `Normal`, `Id` (the index within the body) and
+/// the scalars of the bodies. ParaView's threshold on `Body` shows one of them alone.
 ///
 /// # Errors
-/// [`IoError::Mismatch`] when an array has neither no entries nor one a particle, otherwise as
-/// [`SeriesWriter::append`].
+/// [`IoError::Mismatch`] when an array has not one entry a particle, otherwise as [`SeriesWriter::append`].
 pub fn write_particles(path: &Path, bodies: &[BodyParticles<'_>]) -> Result<(), IoError> {
     let count = bodies.iter().map(|body| body.position.len()).sum();
     let mut position = Vec::with_capacity(count);
     let mut normal = Vec::with_capacity(count);
-    let (mut kind, mut volume, mut depth) =
-        (Vec::with_capacity(count), Vec::with_capacity(count), Vec::with_capacity(count));
+    let mut kind = Vec::with_capacity(count);
     let mut ids = Vec::with_capacity(count);
+    let mut scalars: Vec<(&str, Vec<f64>)> = Vec::new();
     for body in bodies {
         let n = body.position.len();
-        let lengths = [
-            (schema::NORMAL, body.normal.len(), true),
-            (schema::DEPTH, body.depth.len(), true),
-            (schema::VOLUME, body.volume.len(), false),
-        ];
-        for (name, length, optional) in lengths {
-            if length != n && !(optional && length == 0) {
-                let what = format!("field `{name}` has {length} values for {n} particles");
-                return Err(IoError::Mismatch { path: path.to_owned(), what });
-            }
+        let lengths = body.scalars.iter().map(|(name, values)| (*name, values.len()));
+        let vectors = (!body.normal.is_empty()).then_some((schema::NORMAL, body.normal.len()));
+        if let Some((name, length)) = lengths.chain(vectors).find(|(_, length)| *length != n) {
+            let what = format!("field `{name}` has {length} values for {n} particles");
+            return Err(IoError::Mismatch { path: path.to_owned(), what });
+        }
+        for (name, values) in &body.scalars {
+            let at = scalars.iter().position(|(known, _)| known == name).unwrap_or_else(|| {
+                scalars.push((*name, Vec::with_capacity(count)));
+                scalars.len() - 1
+            });
+            scalars[at].1.resize(position.len(), 0.0);
+            scalars[at].1.extend_from_slice(values);
         }
         position.extend_from_slice(body.position);
         normal.extend_from_slice(body.normal);
         normal.resize(position.len(), DVec3::ZERO);
-        depth.extend_from_slice(body.depth);
-        depth.resize(position.len(), 0.0);
         kind.resize(position.len(), body.kind.number());
-        volume.extend_from_slice(body.volume);
         ids.extend(0..n as u64);
     }
+    for (_, values) in &mut scalars {
+        values.resize(count, 0.0);
+    }
+    let kind = std::iter::once((schema::BODY, kind.as_slice()));
     SeriesWriter::create(path).append(&Frame {
         time: 0.0,
         position: &position,
-        scalars: vec![(schema::BODY, &kind), (schema::VOLUME, &volume), (schema::DEPTH, &depth)],
+        scalars: kind.chain(scalars.iter().map(|(name, values)| (*name, values.as_slice()))).collect(),
         vectors: vec![(schema::NORMAL, &normal)],
         ids: Some(&ids),
     })
 }
-
-/// `particles.json`: the outcome of `vaso particles`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct ParticlesReport {
-    /// Version of the program.
-    pub vaso_version: String,
-    /// Title of the case.
-    pub case: String,
-    /// Generator used.
-    pub generator: String,
-    /// Particle spacing \[m\].
-    #[serde(deserialize_with = "json::number")]
-    pub spacing_m: f64,
-    /// The geometry audit.
-    pub surface: SurfaceReport,
-    /// Openings, largest first.
-    pub openings: Vec<OpeningEntry>,
-    /// Particles of each body.
-    pub particles: ParticleCounts,
-    /// Quality by body name (`fluid`, `wall`, `shell`).
-    pub quality: BTreeMap<String, Quality>,
-    /// Advice.
-    #[serde(default)]
-    pub warnings: Vec<String>,
-}
-
-/// Quality of one generated body; lengths in particle spacings.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Quality {
-    /// Number of particles.
-    pub count: u64,
-    /// Sum of particle volumes over the volume they stand for, minus one \[-\].
-    #[serde(deserialize_with = "json::number")]
-    pub volume_error: f64,
-    /// Smallest distance between two particles \[spacings\].
-    #[serde(deserialize_with = "json::number")]
-    pub nearest_neighbor_min: f64,
-    /// Standard deviation over mean of the distance to the nearest particle \[-\].
-    #[serde(deserialize_with = "json::number")]
-    pub nearest_neighbor_cv: f64,
-    /// Mean of the kernel sum over particles with full support \[-\]; `None` where no particle has it.
-    pub kernel_sum_mean: Option<f64>,
-    /// Standard deviation of the kernel sum \[-\].
-    pub kernel_sum_std: Option<f64>,
-    /// Root mean square of the kernel gradient sum, times the spacing \[-\].
-    #[serde(deserialize_with = "json::number")]
-    pub gradient_residual_rms: f64,
-    /// Standard deviation over mean of the particle volumes \[-\].
-    #[serde(deserialize_with = "json::number")]
-    pub volume_cv: f64,
-    /// Particles on the wrong side of the surface.
-    pub outside: u64,
-    /// Wall time of the generation \[s\].
-    pub seconds: Option<f64>,
-    /// Relaxation iterations.
-    pub iterations: u64,
-}
-
-json::file!(ParticlesReport);
 
 #[cfg(test)]
 mod tests {
@@ -164,18 +102,16 @@ mod tests {
         let body = BodyParticles {
             kind: BodyKind::Fluid,
             position: &fluid,
-            volume: &[0.125; 2],
             normal: &[],
-            depth: &[],
+            scalars: vec![("Volume", vec![0.125; 2])],
         };
         let outer = BodyParticles {
             kind: BodyKind::Wall,
             position: &wall,
-            volume: &[0.25],
             normal: &[DVec3::Y],
-            depth: &[0.5],
+            scalars: vec![("Volume", vec![0.25]), ("Depth", vec![0.5])],
         };
-        write_particles(&path, &[body, outer]).unwrap();
+        write_particles(&path, &[body.clone(), outer.clone()]).unwrap();
         let frame = SeriesReader::open(&path).unwrap().frame(0).unwrap();
         assert_eq!(frame.scalar("Body"), Some(&[0.0, 0.0, 1.0][..]));
         assert_eq!(frame.scalar("Volume"), Some(&[0.125, 0.125, 0.25][..]));
@@ -183,7 +119,12 @@ mod tests {
         assert_eq!(frame.vector("Normal"), Some(&[DVec3::ZERO, DVec3::ZERO, DVec3::Y][..]));
         assert_eq!(frame.ids, Some(vec![0, 1, 0]));
 
-        let short = BodyParticles { depth: &[0.5, 0.5], ..outer };
-        assert!(matches!(write_particles(&path, &[short]), Err(IoError::Mismatch { .. })));
+        // What the last body lacks is filled up too.
+        write_particles(&path, &[outer.clone(), body]).unwrap();
+        let frame = SeriesReader::open(&path).unwrap().frame(0).unwrap();
+        assert_eq!(frame.scalar("Depth"), Some(&[0.5, 0.0, 0.0][..]));
+
+        let long = BodyParticles { scalars: vec![("Depth", vec![0.5, 0.5])], ..outer };
+        assert!(matches!(write_particles(&path, &[long]), Err(IoError::Mismatch { .. })));
     }
 }

@@ -18,6 +18,10 @@ pub const FIELDS: &[(&str, &str)] = &[
     (THICKNESS, "m"),
     (VOLUME, "m^3"),
     (DEPTH, "m"),
+    (AREA, "m^2"),
+    (CURVATURE_MAX, "1/m"),
+    (CURVATURE_MIN, "1/m"),
+    (CLAMPED, "1"),
     (BODY, "1"),
 ];
 
@@ -49,6 +53,14 @@ pub const THICKNESS: &str = "Thickness";
 pub const VOLUME: &str = "Volume";
 /// Distance of a wall particle outside the lumen surface \[m\].
 pub const DEPTH: &str = "Depth";
+/// Area of a particle of a shell \[m^2\].
+pub const AREA: &str = "Area";
+/// The larger principal curvature of a shell \[1/m\], positive where normals spread.
+pub const CURVATURE_MAX: &str = "CurvatureMax";
+/// The smaller principal curvature of a shell \[1/m\].
+pub const CURVATURE_MIN: &str = "CurvatureMin";
+/// 1 for a particle of a wall that is held at an opening, else 0.
+pub const CLAMPED: &str = "Clamped";
 /// Body of a particle where one file holds several: see [`crate::particles::BodyKind`].
 pub const BODY: &str = "Body";
 

@@ -30,6 +30,18 @@ pub(crate) fn prose(text: &str) -> String {
     parts.iter().enumerate().map(mark).collect()
 }
 
+/// A page of its own with style and nothing from elsewhere; `body` and `foot` are HTML already.
+pub(crate) fn page(title: &str, body: &str, foot: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{} – vaso</title>\n<style>\n{}</style>\n</head>\n\
+         <body>\n<main>\n{body}</main>\n<footer><small>{foot}</small></footer>\n</body>\n</html>\n",
+        escape(title),
+        include_str!("style.css")
+    )
+}
+
 /// A column of a table.
 pub(crate) enum Column {
     /// Words, to the left.

@@ -2,7 +2,10 @@
 
 mod chart;
 mod color;
+mod compare;
+mod drawing;
 mod error;
+mod histogram;
 mod html;
 mod limits;
 pub mod picture;
@@ -11,6 +14,8 @@ mod scale;
 mod sections;
 mod vessel;
 
+pub use compare::{ComparedParticles, slab, write_comparison};
+pub use drawing::{Drawing, Pen, Plane, sheet};
 pub use error::ReportError;
 pub use picture::render_vessel_png;
 pub use report::write_report;

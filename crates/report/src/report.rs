@@ -2,7 +2,7 @@
 
 use crate::ReportError;
 use crate::chart::{Curve, chart};
-use crate::html::{escape, prose, section};
+use crate::html::{self, escape, prose, section};
 use crate::{limits, sections, vessel};
 use std::path::{Path, PathBuf};
 use vaso_io::{Summary, TableData, read_table, write_whole};
@@ -36,18 +36,12 @@ fn page(out: &Path, summary: &Summary) -> String {
         section("scene", "Scene", &sections::scene(summary)),
         section("limits", "What this does not prove", &limits::limits(summary)),
     ];
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{} – vaso</title>\n<style>\n{}</style>\n</head>\n\
-         <body>\n<main>\n{}</main>\n<footer><small>Made by vaso {} from <code>summary.json</code>, \
-         <code>openings.csv</code> and the particle series beside this file. Quantities are SI or marked with \
-         their unit.</small></footer>\n</body>\n</html>\n",
-        escape(&summary.case),
-        include_str!("style.css"),
-        body.concat(),
+    let foot = format!(
+        "Made by vaso {} from <code>summary.json</code>, <code>openings.csv</code> and the particle series beside this \
+         file. Quantities are SI or marked with their unit.",
         escape(&summary.vaso_version)
-    )
+    );
+    html::page(&summary.case, &body.concat(), &foot)
 }
 
 /// Flow and pressure of every opening against time.

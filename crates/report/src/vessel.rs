@@ -53,31 +53,35 @@ fn series(path: &Path, views: &[(&str, PictureOptions)]) -> String {
     };
     views
         .iter()
-        .map(|(title, options)| figure(&frame, path, title, options).unwrap_or_else(|error| note(&error)))
+        .map(|(title, options)| {
+            let when = format!("at {} s", number(frame.time, 4));
+            figure(&frame, path, title, &when, options).unwrap_or_else(|error| note(&error))
+        })
         .collect()
 }
 
-fn note(error: &ReportError) -> String {
+pub(crate) fn note(error: &ReportError) -> String {
     format!("<p class=\"note\">No picture: {}</p>\n", prose(&error.to_string()))
 }
 
-fn figure(
+/// A picture of a frame with its colours and lengths; `when` stands beside the title.
+pub(crate) fn figure(
     frame: &FrameData,
     path: &Path,
     title: &str,
+    when: &str,
     options: &PictureOptions,
 ) -> Result<String, ReportError> {
     let drawn = draw(frame, path, options)?;
     let (quantity, unit) = (options.quantity.name(), options.quantity.unit());
-    let time = number(frame.time, 4);
     let alternative = format!(
-        "{title} at {time} s: {} particles coloured by {quantity} from {} to {} {unit}",
+        "{title} {when}: {} particles coloured by {quantity} from {} to {} {unit}",
         frame.position.len(),
         number(drawn.low, 3),
         number(drawn.high, 3)
     );
     Ok(format!(
-        "<figure class=\"vessel\"><figcaption><b>{}</b> <small>at {time} s</small></figcaption>\
+        "<figure class=\"vessel\"><figcaption><b>{}</b> <small>{when}</small></figcaption>\
          <img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">{}{}</figure>\n",
         escape(title),
         drawn.picture.width,

@@ -6,7 +6,7 @@ use crate::document::Source;
 use crate::error::Problem;
 use crate::material::{
     Blood, ElasticWall, Elasticity, Material, MaterialModel, Support, Viscosity, ViscosityModel, Wall,
-    WallModel,
+    WallBody, WallModel,
 };
 use crate::scene::{Generator, Geometry, Numerics, Particles, Probe, Run};
 use crate::schema::GeneratorKind;
@@ -52,8 +52,12 @@ impl Builder<'_> {
             GeneratorKind::RelaxedLattice => Generator::RelaxedLattice(section.word("lattice")?),
             GeneratorKind::Multiblock => Generator::Multiblock(section.word("topology")?),
         };
-        let relaxation_steps = section.count("relaxation_steps");
-        Some(Particles { spacing: section.number("spacing"), generator, relaxation_steps })
+        Some(Particles {
+            spacing: section.number("spacing"),
+            generator,
+            smoothing_sweeps: section.count("smoothing_sweeps"),
+            relaxation_steps: section.count("relaxation_steps"),
+        })
     }
 
     pub(crate) fn blood(&self, section: &Section) -> Option<Blood> {
@@ -92,6 +96,10 @@ impl Builder<'_> {
             WallModel::Solid => self.elastic_wall(section, blood, run).map(Wall::Solid),
             WallModel::Shell => self.elastic_wall(section, blood, run).map(Wall::Shell),
         }
+    }
+
+    pub(crate) fn wall_body(&self, section: &Section) -> WallBody {
+        WallBody { thickness: section.optional_number("thickness"), open_ends: section.word("open_ends") }
     }
 
     fn elastic_wall(&mut self, section: &Section, blood: bool, run: Option<&Run>) -> Option<ElasticWall> {

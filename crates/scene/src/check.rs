@@ -29,6 +29,18 @@ pub(crate) fn load(path: &Path, overrides: &[(String, String)]) -> Result<Scene,
     }
 }
 
+/// What stands in the case of a bare surface: enough to be complete, and nothing about its openings.
+const BARE: &str = "[blood]\n[run]\nend_time = \"1 s\"\n";
+
+pub(crate) fn of_surface(surface: &Path, overrides: &[(String, String)]) -> Result<Scene, SceneError> {
+    let name = |part: Option<&std::ffi::OsStr>| {
+        toml::Value::from(part.unwrap_or_default().to_string_lossy().as_ref())
+    };
+    let (title, file) = (name(surface.file_stem()), name(surface.file_name()));
+    let text = format!("{BARE}[case]\ntitle = {title}\n[geometry]\nsurface = {file}\n");
+    scene(Source::new(surface.to_owned(), text, overrides.to_vec(), Files::Disk))
+}
+
 /// From the text of a case to its scene.
 pub(crate) fn scene(source: Source) -> Result<Scene, SceneError> {
     let mut root = source.parse().map_err(|problems| SceneError { problems })?;
@@ -80,6 +92,7 @@ impl Builder<'_> {
             particles: self.particles(root.section("particles")?)?,
             blood: blood.map_or(Some(None), |blood: Option<Blood>| blood.map(Some))?,
             wall: wall?,
+            wall_body: root.section("wall").map(|section| self.wall_body(section)).unwrap_or_default(),
             openings: openings.into_iter().collect::<Option<_>>()?,
             probes,
             numerics: self.numerics(root.section("numerics")?)?,

@@ -21,7 +21,7 @@ mod waveform;
 mod words;
 
 pub use error::{Problem, SceneError};
-pub use material::{Blood, Wall};
+pub use material::{Blood, OpenEnds, Wall, WallBody};
 pub use opening::{Condition, Drive, Opening, Profile};
 pub use reference::case_reference;
 pub use scene::{

@@ -84,6 +84,15 @@ words! {
     }
 }
 
+/// How the wall is made of particles, whatever its model.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WallBody {
+    /// Thickness, outwards from the surface \[m\]; `None` for a rigid wall that leaves it to the spacing.
+    pub thickness: Option<f64>,
+    /// Where it ends at the openings; `None` leaves it to the model.
+    pub open_ends: Option<OpenEnds>,
+}
+
 /// A wall that deforms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticWall {
@@ -158,6 +167,23 @@ words! {
         /// Not held.
         Free = "free",
     }
+}
+
+words! {
+    /// Where the particles of a wall end at the openings.
+    pub enum OpenEnds {
+        /// In the plane of the cap; what is nearer to it than to the wall is left out.
+        ClosestCap = "closest-cap",
+        /// In the plane of the cap; what stands in a box on it is left out.
+        Boxes = "boxes",
+        /// Beyond the cap, straight on for a kernel support.
+        Collar = "collar",
+    }
+}
+
+impl OpenEnds {
+    /// The words a shell may have: nothing of it has to be taken out, so there are no boxes.
+    pub(crate) const OF_SHELLS: &'static [&'static str] = &["closest-cap", "collar"];
 }
 
 words! {

@@ -78,7 +78,8 @@ impl Reader<'_> {
         self.problems.push(Problem { allowed, advice, ..problem });
     }
 
-    /// A key of another model, condition or generator.
+    /// A key of another model, condition or generator. Where an override has changed that, keys of the file that belong
+    /// to the old one are passed over: they cannot be taken out from there.
     fn misplaced(
         &mut self,
         section: &Section,
@@ -89,6 +90,10 @@ impl Reader<'_> {
     ) {
         let failing = |key: &Key| key.when.iter().find(|when| holds(when, keys, entries) == Some(false));
         let Some(when) = same.iter().find_map(|key| failing(key)) else { return };
+        let is_overridden = |e: &Entry| e.key == when.key && matches!(e.node.spot, Spot::Override(_));
+        if matches!(entry.node.spot, Spot::File(_)) && entries.iter().any(is_overridden) {
+            return;
+        }
         let governing = governing_word(when.key, keys, entries).unwrap_or_default();
         let conditions = same.iter().flat_map(|key| key.when).filter(|other| other.key == when.key);
         let mut words: Vec<&str> = conditions.flat_map(|condition| condition.words).copied().collect();

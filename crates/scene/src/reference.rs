@@ -15,7 +15,8 @@ will do. Numbers without dimension are written bare. Pressures are gauge. Points
 start from the folder of the file. A key that is not listed here is an error.
 
 `--set key=value` overrides a key: `--set particles.spacing=\"0.4 mm\"`, `--set opening.ica.compliance=\"1e-9 m^3/Pa\"`.
-An opening or probe is addressed by its name or its number from 0.
+An opening or probe is addressed by its name or its number from 0. Where an override changes a model, generator or condition,
+keys of the file that have no meaning with the new one are passed over.
 
 A waveform is a text file of two columns, time and value, separated by commas, semicolons, tabs or spaces, in SI units
 unless a header says otherwise in brackets: `time [ms], flow [ml/min]`. `#` begins a comment. With `run.period` the

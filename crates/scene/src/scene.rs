@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::document::Source;
 use crate::error::{Problem, SceneError};
 use crate::files::Files;
-use crate::material::{Blood, Wall};
+use crate::material::{Blood, Wall, WallBody};
 use crate::opening::Opening;
 use crate::words::words;
 
@@ -27,6 +27,8 @@ pub struct Scene {
     pub blood: Option<Blood>,
     /// The vessel wall.
     pub wall: Wall,
+    /// How it is made of particles.
+    pub wall_body: WallBody,
     /// Conditions at the openings in the order of the file. Empty until the openings have been looked at with
     /// `vaso check`; a run with blood needs one for each opening of the surface.
     pub openings: Vec<Opening>,
@@ -71,6 +73,15 @@ impl Scene {
         crate::check::scene(Source::new("case.toml".into(), text.to_owned(), overrides.to_vec(), files))
     }
 
+    /// A scene of a bare surface, to be filled with particles: its walls are rigid, nothing is said about its openings
+    /// and all else comes from the overrides, `particles.spacing` at least.
+    ///
+    /// # Errors
+    /// As for [`Self::load`].
+    pub fn of_surface(surface: &Path, overrides: &[(String, String)]) -> Result<Self, SceneError> {
+        crate::check::of_surface(surface, overrides)
+    }
+
     /// A problem with a key that shows only after loading, such as an opening the surface does not have; it names the
     /// place like every other problem. For a key that was not written, the place is that of its table.
     pub fn problem(&self, key: &str, message: impl Into<String>) -> Problem {
@@ -100,6 +111,8 @@ pub struct Particles {
     pub spacing: f64,
     /// Where they are placed first.
     pub generator: Generator,
+    /// Sweeps of elliptic smoothing of the sections of blocks.
+    pub smoothing_sweeps: usize,
     /// Relaxation steps after placing.
     pub relaxation_steps: u32,
 }

@@ -11,7 +11,7 @@ use crate::kind::Kind::{
 };
 use crate::kind::Presence::{Default, Optional, Required};
 use crate::kind::{Key, Kind, Presence, Range, When};
-use crate::material::{Damping, Ends, MaterialModel, ViscosityModel, WallModel};
+use crate::material::{Damping, Ends, MaterialModel, OpenEnds, ViscosityModel, WallModel};
 use crate::opening::{ConditionKind, Profile};
 use crate::scene::{Field, Lattice, Precision, Topology};
 use crate::words::{Word, words};
@@ -53,6 +53,10 @@ const NEWTONIAN: &[When] = &[When { key: "model", words: &["newtonian"] }];
 
 const ELASTIC: When = When { key: "model", words: &["solid", "shell"] };
 const ELASTIC_WALL: &[When] = &[ELASTIC];
+const RIGID_LAYERS: &[When] = &[When { key: "model", words: &["rigid"] }];
+const RIGID_SHELL: &[When] = &[When { key: "model", words: &["rigid-shell"] }];
+const LAYERS: &[When] = &[When { key: "model", words: &["rigid", "solid"] }];
+const SHELLS: &[When] = &[When { key: "model", words: &["rigid-shell", "shell"] }];
 const ISOTROPIC: &[When] =
     &[ELASTIC, When { key: "material", words: &["neo-hookean", "saint-venant-kirchhoff", "hypoelastic"] }];
 const FIBERS: &[When] = &[ELASTIC, When { key: "material", words: &["holzapfel-gasser-ogden"] }];
@@ -83,6 +87,7 @@ pub(crate) const KEYS: &[Key] = &[
     key("particles.generator", Choice(GeneratorKind::WORDS), Default("relaxed-lattice"), "A lattice cut by the surface, or blocks along the vessel."),
     only(LATTICE, "particles.lattice", Choice(Lattice::WORDS), Default("cubic"), "Lattice to start from."),
     only(MULTIBLOCK, "particles.topology", Choice(Topology::WORDS), Default("o-grid"), "How a cross-section is divided into blocks."),
+    only(MULTIBLOCK, "particles.smoothing_sweeps", Count(0, 10_000), Default("0"), "Sweeps of elliptic smoothing of each section; without, blocks are filled from their faces."),
     key("particles.relaxation_steps", Count(0, 100_000), Default("200"), "Relaxation steps after placing."),
     //
     key("blood", Table, Optional("a wall alone under its own `pressure`"), "The fluid. `[blood]` alone takes all defaults."),
@@ -105,6 +110,10 @@ pub(crate) const KEYS: &[Key] = &[
     key("wall.model", Choice(WallModel::WORDS), Default("rigid"), "Whether it deforms, and how it is represented."),
     only(ELASTIC_WALL, "wall.material", Choice(MaterialModel::WORDS), Default("neo-hookean"), "Constitutive law."),
     only(ELASTIC_WALL, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Required, "Thickness, outwards from the surface."),
+    only(RIGID_LAYERS, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Optional("four spacings"), "Thickness of the layers that stand for it."),
+    only(RIGID_SHELL, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Optional("one spacing"), "Thickness written with its particles."),
+    only(LAYERS, "wall.open_ends", Choice(OpenEnds::WORDS), Optional("\"collar\" where it is rigid, else \"closest-cap\""), "Where its particles end at the openings."),
+    only(SHELLS, "wall.open_ends", Choice(OpenEnds::OF_SHELLS), Optional("\"closest-cap\""), "Where its particles end at the openings."),
     only(ELASTIC_WALL, "wall.density", Quantity(DENSITY, Range::POSITIVE), Default("1120 kg/m^3"), "Density at rest."),
     only(ISOTROPIC, "wall.young_modulus", Quantity(PRESSURE, Range::POSITIVE), Required, "Young's modulus."),
     only(ELASTIC_WALL, "wall.poisson_ratio", Number(Range::closed(0.0, 0.495)), Default("0.45"), "Poisson's ratio. The explicit step goes to zero as it goes to 0.5."),

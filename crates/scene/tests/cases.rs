@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use vaso_scene::material::{Damping, Ends, Material, Viscosity};
 use vaso_scene::{
-    Condition, Drive, Field, Generator, Lattice, Precision, Problem, Profile, Scene, SceneError, Topology,
-    Wall,
+    Condition, Drive, Field, Generator, Lattice, OpenEnds, Precision, Problem, Profile, Scene, SceneError,
+    Topology, Wall, WallBody,
 };
 
 fn good(name: &str) -> Scene {
@@ -179,6 +179,49 @@ fn overrides_go_over_the_file() {
     assert_eq!((scene.numerics.seed, scene.wall), (7, Wall::RigidShell));
     assert_eq!((scene.run.end_time, scene.run.cycles), (2.0, Some(2)));
     assert_eq!(scene.output.fields, [Field::Pressure]);
+}
+
+/// A switch of the generator or model at the command line leaves keys of the old one behind in the file.
+#[test]
+fn an_override_of_the_kind_passes_over_keys_of_the_old_one() {
+    let load = |overrides: &[(&str, &str)]| {
+        let overrides: Vec<_> = overrides.iter().map(|&(k, v)| (k.to_owned(), v.to_owned())).collect();
+        Scene::load(Path::new("tests/good/pulsatile.toml"), &overrides)
+    };
+    let scene = load(&[("particles.generator", "relaxed-lattice"), ("particles.lattice", "bcc")]).unwrap();
+    assert_eq!(scene.particles.generator, Generator::RelaxedLattice(Lattice::BodyCentred));
+    let error =
+        load(&[("particles.generator", "relaxed-lattice"), ("particles.topology", "o-grid")]).unwrap_err();
+    assert!(error.to_string().contains("`particles.topology`"), "{error}");
+    assert_eq!(error.problems.len(), 1, "{error}");
+}
+
+#[test]
+fn walls_say_how_they_are_made_of_particles() {
+    let load = |path: &str, overrides: &[(&str, &str)]| {
+        let overrides: Vec<_> = overrides.iter().map(|&(k, v)| (k.to_owned(), v.to_owned())).collect();
+        Scene::load(Path::new(path), &overrides)
+    };
+    let contract = "tests/good/contract.toml";
+    assert_eq!(load(contract, &[]).unwrap().wall_body, WallBody::default());
+    let scene = load(contract, &[("wall.thickness", "1 mm"), ("wall.open_ends", "boxes")]).unwrap();
+    assert_eq!(scene.wall_body, WallBody { thickness: Some(1e-3), open_ends: Some(OpenEnds::Boxes) });
+    let error = load(contract, &[("wall.model", "rigid-shell"), ("wall.open_ends", "boxes")]).unwrap_err();
+    assert!(error.to_string().contains("\"closest-cap\", \"collar\""), "{error}");
+    let blocks = [("particles.generator", "multiblock"), ("particles.smoothing_sweeps", "20")];
+    assert_eq!(load(contract, &blocks).unwrap().particles.smoothing_sweeps, 20);
+}
+
+#[test]
+fn a_bare_surface_needs_a_spacing_and_nothing_else() {
+    let surface = Path::new("tests/files/vessel.stl");
+    let spacing = ("particles.spacing".to_owned(), "0.5 mm".to_owned());
+    let scene = Scene::of_surface(surface, &[spacing]).unwrap();
+    assert_eq!((scene.title.as_str(), scene.geometry.surface.as_path()), ("vessel", surface));
+    assert_eq!((scene.wall.clone(), scene.openings.len(), scene.particles.spacing), (Wall::Rigid, 0, 5e-4));
+    let error = Scene::of_surface(surface, &[]).unwrap_err();
+    assert!(error.to_string().contains("`particles`"), "{error}");
+    assert!(Scene::of_surface(Path::new("tests/files/none.stl"), &[]).is_err());
 }
 
 fn refused(path: &str, overrides: &[(&str, &str)]) -> SceneError {

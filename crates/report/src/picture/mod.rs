@@ -30,6 +30,8 @@ pub enum Quantity {
     Pressure,
     /// Magnitude of the wall shear stress \[Pa\].
     WallShear,
+    /// Volume of the particles, in cubed spacings where a field `Volume` has been made so.
+    Volume,
 }
 
 impl Quantity {
@@ -39,6 +41,7 @@ impl Quantity {
             Self::Speed => "speed",
             Self::Pressure => "pressure",
             Self::WallShear => "wall shear stress",
+            Self::Volume => "volume",
         }
     }
 
@@ -47,6 +50,7 @@ impl Quantity {
         match self {
             Self::Speed => "m/s",
             Self::Pressure | Self::WallShear => "Pa",
+            Self::Volume => "dp³",
         }
     }
 
@@ -55,6 +59,7 @@ impl Quantity {
             Self::Speed => schema::VELOCITY,
             Self::Pressure => schema::PRESSURE,
             Self::WallShear => schema::WSS,
+            Self::Volume => schema::VOLUME,
         }
     }
 
@@ -152,7 +157,11 @@ pub fn draw(frame: &FrameData, path: &Path, options: &PictureOptions) -> Result<
 }
 
 /// Colour range: what all but one in a hundred values at either end fit into, widened to round numbers.
+/// Volumes are the same colours in every picture, so that pictures compare.
 fn range(quantity: Quantity, values: &[f64]) -> (f64, f64, Vec<f64>) {
+    if quantity == Quantity::Volume {
+        return (0.5, 1.5, ticks(0.5, 1.5, 4));
+    }
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let at =

@@ -1,0 +1,161 @@
+//! Commands and flags of the program.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use vaso_driver::DriverError;
+use vaso_driver::extrusion::ExtrusionRequest;
+use vaso_driver::particles::{ParticlesJob, Wanted};
+use vaso_units::{dimension, parse_as};
+
+/// Blood flow in a vessel surface by smoothed particle hydrodynamics.
+#[derive(Parser)]
+#[command(name = "vaso", version, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Read everything, build nothing heavy: audit, openings, plan, expected cost.
+    Check {
+        #[command(flatten)]
+        common: Common,
+        /// Unit of the coordinates: m, cm, mm or um.
+        #[arg(long)]
+        unit: Option<String>,
+    },
+    /// Surface to particles only, with a quality report.
+    Particles(Box<ParticlesFlags>),
+    /// The main job: everything from the case to the report.
+    Run {
+        #[command(flatten)]
+        common: Common,
+        /// Write over a finished output folder.
+        #[arg(long)]
+        force: bool,
+    },
+    /// Make the one-file report of an output folder again.
+    Report {
+        /// Output folder of a run.
+        out: PathBuf,
+    },
+}
+
+#[derive(Args)]
+pub(crate) struct Common {
+    /// Case folder or case.toml (for `check` and `particles` also a bare surface).
+    pub(crate) case: PathBuf,
+    /// Output folder; default: `out` in the case folder.
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Worker threads; default: one a core.
+    #[arg(long)]
+    pub(crate) threads: Option<usize>,
+    /// Override of the case, `key.path=value`; may be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = setting)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Say nothing but errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Machine-readable result on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn setting(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.trim().to_owned())),
+        _ => Err(format!("\"{text}\" is not of the form key.path=value")),
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct ParticlesFlags {
+    #[command(flatten)]
+    pub(crate) common: Common,
+    /// Unit of the coordinates: m, cm, mm or um.
+    #[arg(long)]
+    unit: Option<String>,
+    /// Distance between particles, such as "0.4 mm".
+    #[arg(long)]
+    spacing: Option<String>,
+    /// Generator of the fluid: relaxed-lattice or multiblock.
+    #[arg(long)]
+    generator: Option<String>,
+    /// Lattice a relaxed lattice starts from: cubic or bcc.
+    #[arg(long)]
+    lattice: Option<String>,
+    /// Arrangement of blocks in a section: single, nine-block or o-grid.
+    #[arg(long)]
+    topology: Option<String>,
+    /// Sweeps of elliptic smoothing of the sections of blocks.
+    #[arg(long, value_name = "SWEEPS")]
+    smoothing: Option<String>,
+    /// Seed of everything random.
+    #[arg(long)]
+    seed: Option<String>,
+    /// Thickness of the wall, such as "0.6 mm".
+    #[arg(long, value_name = "LENGTH")]
+    wall_thickness: Option<String>,
+    /// Where the wall ends at the openings: closest-cap, boxes or collar.
+    #[arg(long)]
+    ends: Option<String>,
+    /// Bodies to make, of fluid, wall and shell; default: those the case calls for.
+    #[arg(long, value_name = "BODY,...")]
+    bodies: Option<String>,
+    /// Write the outer surface of the wall to this STL file, in the unit of the vessel's surface.
+    #[arg(long, value_name = "FILE.stl", conflicts_with = "compare")]
+    extrude: Option<PathBuf>,
+    /// How far out the outer surface lies; default: the thickness of the wall.
+    #[arg(long, value_name = "LENGTH", requires = "extrude")]
+    extrude_by: Option<String>,
+    /// Make the fluid by each of these generators and compare them: relaxed-lattice, relaxed-lattice:bcc, multiblock,
+    /// multiblock:single, multiblock:nine-block, multiblock:o-grid.
+    #[arg(long, value_name = "GENERATOR,...", conflicts_with_all = ["generator", "lattice", "topology", "bodies"])]
+    pub(crate) compare: Option<String>,
+    /// Write over files that are in the way.
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+impl ParticlesFlags {
+    /// The settings of the case that the flags stand for, after those of `--set`.
+    pub(crate) fn settings(&self) -> Vec<(String, String)> {
+        let flags = [
+            ("geometry.unit", &self.unit),
+            ("particles.spacing", &self.spacing),
+            ("particles.generator", &self.generator),
+            ("particles.lattice", &self.lattice),
+            ("particles.topology", &self.topology),
+            ("particles.smoothing_sweeps", &self.smoothing),
+            ("numerics.seed", &self.seed),
+            ("wall.thickness", &self.wall_thickness),
+            ("wall.open_ends", &self.ends),
+        ];
+        let given = flags.iter().filter_map(|(key, value)| Some(((*key).to_owned(), (*value).clone()?)));
+        self.common.set.iter().cloned().chain(given).collect()
+    }
+
+    /// What is to be done; `thickness` is that of the wall, where one is given \[m\].
+    ///
+    /// # Errors
+    /// When a flag is wrong.
+    pub(crate) fn job(&self, thickness: Option<f64>) -> Result<ParticlesJob, DriverError> {
+        let length = |text: &String| {
+            parse_as(text, dimension::LENGTH).map_err(|e| DriverError::input(format!("--extrude-by: {e}")))
+        };
+        let distance = self.extrude_by.as_ref().map(length).transpose()?;
+        let extrusion = match (&self.extrude, distance.or(thickness)) {
+            (None, _) => None,
+            (Some(file), Some(distance)) => Some(ExtrusionRequest { file: file.clone(), distance }),
+            (Some(_), None) => {
+                return Err(DriverError::input(
+                    "--extrude: nothing says how far; add --extrude-by or --wall-thickness, such as \"0.6 mm\"",
+                ));
+            }
+        };
+        let bodies = self.bodies.as_deref().map(Wanted::listed).transpose()?;
+        Ok(ParticlesJob { bodies, extrusion, force: self.force })
+    }
+}
