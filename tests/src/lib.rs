@@ -1,6 +1,7 @@
 //! Tools of the tests that span crates: cases run through the library, and flows compared with formulas.
 
 pub mod poiseuille;
+pub mod shear_thinning;
 
 use std::path::PathBuf;
 use vaso_driver::{Case, Flow, Plan, world};

@@ -136,6 +136,10 @@ impl<R: Real> Flow<R> {
         ledger.time(Stage::Rows, || fluid.search(openings.zones()));
         ledger.time(Stage::Summation, || fluid.summation(openings.zones()));
         ledger.time(Stage::Viscosity, || fluid.viscosity());
+        if fluid.numbers().rheology.is_some() {
+            ledger.time(Stage::ShearThinning, || fluid.shear_thinning());
+        }
+        ledger.time(Stage::Viscosity, || fluid.offsets());
         let duration = fluid.advective_step().min(until - self.time);
 
         let mut elapsed = 0.0;

@@ -13,6 +13,8 @@ pub enum Stage {
     Summation,
     /// Viscosity and velocity gradients.
     Viscosity,
+    /// Viscosity by the shear rate.
+    ShearThinning,
     /// Pressure of the wall particles.
     WallPressure,
     /// Momentum half of the acoustic step.
@@ -31,11 +33,12 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order of a step.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Exchange,
         Self::Rows,
         Self::Summation,
         Self::Viscosity,
+        Self::ShearThinning,
         Self::WallPressure,
         Self::Momentum,
         Self::Openings,
@@ -52,6 +55,7 @@ impl Stage {
             Self::Rows => "blood.rows",
             Self::Summation => "blood.summation",
             Self::Viscosity => "blood.viscosity",
+            Self::ShearThinning => "blood.shear_thinning",
             Self::WallPressure => "wall.pressure",
             Self::Momentum => "blood.momentum",
             Self::Openings => "openings.impose",

@@ -63,7 +63,7 @@ impl Plan {
     pub fn new(case: &Case) -> Result<Self, DriverError> {
         supported::check(case)?;
         let scene = &case.scene;
-        let (density, viscosity) = supported::newtonian(scene)?;
+        let supported::PlannedBlood { density, viscosity, rheology } = supported::blood(scene)?;
         let ramp_default = scene.run.period.map_or(DEFAULT_RAMP, |period| DEFAULT_RAMP.max(0.1 * period));
         let openings = planned_openings(case, ramp_default)?;
         let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
@@ -101,6 +101,10 @@ impl Plan {
         let across = 2.0 * flow.smallest_radius / spacing;
         let mut numbers = Numbers::new(density, viscosity, flow.top_speed, spacing);
         numbers.sound_speed = sound_speed;
+        if let Some(law) = rheology {
+            numbers.rheology = rheology;
+            numbers.viscosity = law.extremes()[0];
+        }
         numbers.smoothing_length = scene.numerics.smoothing_length * spacing;
         numbers.density_blend =
             scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });

@@ -31,6 +31,13 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     let mut out = String::new();
     let n = &plan.numbers;
     let p = &plan.predicted;
+    let viscosity = match n.rheology {
+        None => format!("{:.3}", 1e3 * n.viscosity),
+        Some(law) => {
+            let [thick, thin] = law.extremes().map(|eta| 1e3 * eta);
+            format!("{thin:.3} to {thick:.3}")
+        }
+    };
     let _ = writeln!(
         out,
         "plan     {} · {} · {} · {} threads · seed {}",
@@ -42,11 +49,11 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     );
     let _ = writeln!(
         out,
-        "bodies   blood   fluid {:>9}   spacing {:.3} mm   density {} kg/m3   viscosity {:.3} mPa s",
+        "bodies   blood   fluid {:>9}   spacing {:.3} mm   density {} kg/m3   viscosity {} mPa s",
         p.particles.fluid,
         n.spacing * 1e3,
         n.rest_density,
-        n.viscosity * 1e3
+        viscosity
     );
     let _ = writeln!(out, "         vessel  wall  {:>9}   rigid, four layers", p.particles.wall);
     let reach = n.smoothing_length / n.spacing * 2.0;

@@ -311,6 +311,7 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
             let stages: &[Stage] = match effect.name.as_str() {
                 "blood.pressure" => &[Stage::Rows, Stage::Momentum, Stage::Continuity],
                 "blood.viscosity" => &[Stage::Viscosity],
+                "blood.shear_thinning" => &[Stage::ShearThinning],
                 // One sweep finds both the density sum and the correction matrices.
                 "blood.density_blend" => &[Stage::Summation],
                 "blood.transport_velocity" => &[Stage::Transport],

@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::PlannedOpening;
 use vaso_boundary::{Condition, Source};
+use vaso_fluid::Rheology;
 use vaso_generation::Ends;
 use vaso_io::EffectEntry;
 use vaso_scene::material::Viscosity;
@@ -67,24 +68,53 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
 }
 
-/// Density and viscosity of Newtonian blood.
+/// Shear rate at which the viscosity of a law stands for all in the numbers of a plan \[1/s\]: that of a large artery.
+const TYPICAL_SHEAR_RATE: f64 = 100.0;
+
+/// The blood of a plan.
+pub(crate) struct PlannedBlood {
+    /// Rest density \[kg/m^3\].
+    pub(crate) density: f64,
+    /// Viscosity; of a law of the shear rate that at 100/s \[Pa s\].
+    pub(crate) viscosity: f64,
+    /// Law of the shear rate; `None` for Newtonian blood.
+    pub(crate) rheology: Option<Rheology>,
+}
+
+/// The blood of a scene.
 ///
 /// # Errors
-/// When there is no blood, or it is not Newtonian.
-pub(crate) fn newtonian(scene: &Scene) -> Result<(f64, f64), DriverError> {
-    match scene.blood {
-        Some(Blood { density, viscosity: Viscosity::Newtonian { viscosity } }) => Ok((density, viscosity)),
-        Some(_) => Err(DriverError::input(format!(
-            "{}: `blood.viscosity` is a shear-thinning model, which this version does not have; give a constant such \
-             as \"3.5 mPa s\"",
-            scene.file.display()
-        ))),
-        None => Err(DriverError::input(format!(
+/// When there is none.
+pub(crate) fn blood(scene: &Scene) -> Result<PlannedBlood, DriverError> {
+    let Some(Blood { density, viscosity }) = scene.blood else {
+        return Err(DriverError::input(format!(
             "{}: there is no `[blood]`, and this version has no wall that could move without it; add `[blood]` with \
              `density` and `viscosity`",
             scene.file.display()
-        ))),
-    }
+        )));
+    };
+    let rheology = match viscosity {
+        Viscosity::Newtonian { viscosity } => return Ok(PlannedBlood { density, viscosity, rheology: None }),
+        Viscosity::CarreauYasuda {
+            zero_shear_viscosity,
+            infinite_shear_viscosity,
+            relaxation_time,
+            index,
+            transition,
+        } => Rheology::CarreauYasuda {
+            zero_shear: zero_shear_viscosity,
+            infinite_shear: infinite_shear_viscosity,
+            relaxation_time,
+            index,
+            transition,
+        },
+        Viscosity::Casson { yield_stress, infinite_shear_viscosity } => {
+            Rheology::Casson { yield_stress, infinite_shear: infinite_shear_viscosity }
+        }
+        Viscosity::PowerLaw { consistency, index } => Rheology::PowerLaw { consistency, index },
+    };
+    let viscosity = rheology.viscosity(TYPICAL_SHEAR_RATE);
+    Ok(PlannedBlood { density, viscosity, rheology: Some(rheology) })
 }
 
 /// Every effect the program knows, with the reason it is on or off.
@@ -108,6 +138,8 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
         seconds: None,
         bytes: None,
     };
+    let is_thinning =
+        scene.blood.as_ref().is_some_and(|b| !matches!(b.viscosity, Viscosity::Newtonian { .. }));
     let either = |name: &str, names: &str, none: &str| {
         let active = !names.is_empty();
         let reason = if active { format!("at {names}") } else { none.into() };
@@ -118,7 +150,19 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
             "blood.pressure",
             "a scene with blood: momentum and continuity of a weakly compressible fluid".into(),
         ),
-        on("blood.viscosity", "Newtonian, as given by `blood.viscosity`".into()),
+        on("blood.viscosity", "viscous forces between particles and at the wall".into()),
+        EffectEntry {
+            on: is_thinning,
+            called_for: is_thinning,
+            ..on(
+                "blood.shear_thinning",
+                if is_thinning {
+                    "`blood.viscosity` is a law of the shear rate".into()
+                } else {
+                    "`blood.viscosity` is a constant".into()
+                },
+            )
+        },
         on("blood.density_blend", "holds the density of a closed stream against drift".into()),
         on(
             "blood.gradient_correction",

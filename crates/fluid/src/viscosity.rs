@@ -4,15 +4,16 @@ use crate::fluid::{Fluid, Frozen, numbered};
 use crate::law::offset::Offset;
 use crate::law::thinning::{self, ThinningViscosity};
 use crate::law::viscosity::{FLUID_SUMS, FluidViscosity, WALL_SUMS, WallViscosity};
-use crate::rheology::{Rheology, shear_rate};
+use crate::rheology::shear_rate;
 use crate::summation::pack_sym;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
 
 impl<R: Real> Fluid<R> {
-    /// Finds the viscous acceleration, the own-pressure and support sums, and the velocity offsets
-    /// of all pairs; needs [`Self::summation`] before it.
+    /// Finds the viscous acceleration, the own-pressure and support sums, and the velocity gradient; needs
+    /// [`Self::summation`] before it. With [`Numbers::rheology`](crate::Numbers::rheology)
+    /// [`Self::shear_thinning`] has to follow, in any case [`Self::offsets`].
     pub fn viscosity(&mut self) {
         let n = self.state.len();
         self.strain.resize(n, [0.0; 6]);
@@ -75,10 +76,11 @@ impl<R: Real> Fluid<R> {
                     strain[k] = scaled_strain(&raw, frozen, 0.5 * support);
                 }
             });
+    }
 
-        if let Some(rheology) = rheology {
-            self.thinning(&rheology);
-        }
+    /// Finds the velocity offsets of all pairs from the velocity gradient of [`Self::viscosity`].
+    pub fn offsets(&mut self) {
+        let isa = self.isa;
         let strain = &self.strain;
         self.second.fill(|i| pack_sym(&strain[i]));
         self.offsets.resize_for(self.rows.chunks());
@@ -98,9 +100,10 @@ impl<R: Real> Fluid<R> {
 }
 
 impl<R: Real> Fluid<R> {
-    /// Adds the viscous acceleration between fluid particles of a shear-rate dependent viscosity, and weighs that
-    /// of the wall with the particle's own.
-    fn thinning(&mut self, rheology: &Rheology) {
+    /// Completes the viscous acceleration where the viscosity follows the shear rate: adds that between fluid
+    /// particles, and weighs that of the wall with the particle's own. Does nothing for Newtonian blood.
+    pub fn shear_thinning(&mut self) {
+        let Some(rheology) = self.numbers.rheology else { return };
         let support = self.kernel.support();
         let (gradient, rho0) = (self.kernel.gradient_scale(), self.numbers.rest_density);
         // The strain is kept in units of half a support.
