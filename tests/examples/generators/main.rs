@@ -100,6 +100,6 @@ that of the flow alone.
 
 {flows}
 
-Two flow-throughs after the start little is left of the pattern the particles began in: the spacing decides about the error,
-not the generator.
+Two flow-throughs after the start little is left of the pattern the particles began in: the spacing decides much more
+about the error than the generator.
 ";
