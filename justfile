@@ -35,6 +35,10 @@ bench:
 figures:
     cargo run --release -p vaso-tests --example figures -- 10 16 20 > docs/figures.md
 
+# The page of the generators with its pictures; some minutes on two cores.
+generators:
+    cargo run --release -p vaso-tests --example generators
+
 # The reference of case.toml made from its schema, and the documentation of the crates.
 docs:
     cargo run -p vaso-scene --example case_reference > docs/case-reference.md

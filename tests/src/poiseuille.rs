@@ -28,6 +28,12 @@ pub struct Errors {
     pub escaped: u64,
     /// Largest density deviation, start included.
     pub density: f64,
+    /// Fluid particles at the end.
+    pub particles: usize,
+    /// Acoustic steps taken.
+    pub steps: u64,
+    /// Wall time of the loop \[s\], generation left out.
+    pub seconds: f64,
 }
 
 /// Runs the pipe with `across` particles over the diameter for 1.2 s, about two flow-throughs.
@@ -35,8 +41,16 @@ pub struct Errors {
 /// # Panics
 /// When the run breaks down.
 pub fn run<R: Real>(across: f64) -> Errors {
+    run_with::<R>(across, &[])
+}
+
+/// As [`run`], with overrides of the case.
+///
+/// # Panics
+/// When the run breaks down or an override is wrong.
+pub fn run_with<R: Real>(across: f64, overrides: &[(&str, &str)]) -> Errors {
     let spacing = format!("{} mm", 1e3 * DIAMETER / across);
-    let case = case("pipe", &[("particles.spacing", &spacing)]);
+    let case = case("pipe", &[&[("particles.spacing", spacing.as_str())], overrides].concat());
     let (mut flow, plan) = flow::<R>(&case);
     let inlet = plan.openings.iter().find_map(|o| match &o.condition {
         Condition::Velocity { mean, .. } => Some((mean.peak(), o.opening.area)),
@@ -90,6 +104,9 @@ pub fn run<R: Real>(across: f64) -> Errors {
         balance: change.iter().sum::<f64>() / inflow,
         escaped: flow.watch.escaped,
         density: flow.watch.max_density_error,
+        particles: flow.fluid.state.len(),
+        steps: flow.acoustic_steps,
+        seconds: flow.ledger.total(),
     }
 }
 

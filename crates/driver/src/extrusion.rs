@@ -15,6 +15,21 @@ pub struct ExtrusionRequest {
 }
 
 impl ExtrusionRequest {
+    /// Refuses a place that does not exist, before any work is done.
+    ///
+    /// # Errors
+    /// When the folder of the file is not there.
+    pub(crate) fn check(&self) -> Result<(), DriverError> {
+        match self.file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+            Some(folder) => Err(DriverError::input(format!(
+                "--extrude: \"{}\" lies in \"{}\", which is no folder; make it first",
+                self.file.display(),
+                folder.display()
+            ))),
+            None => Ok(()),
+        }
+    }
+
     /// Moves the wall of `vessel` outwards, without writing anything yet.
     ///
     /// # Errors

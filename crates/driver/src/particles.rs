@@ -86,6 +86,7 @@ pub fn particles(
     talk: &Talk,
 ) -> Result<ParticlesReport, DriverError> {
     let own = ["particles.vtkhdf", "particles.json"].map(|name| out.join(name));
+    job.extrusion.as_ref().map_or(Ok(()), ExtrusionRequest::check)?;
     let outer = job.extrusion.iter().map(|e| e.file.clone());
     OutputDir::keep_clear(own.into_iter().chain(outer), job.force)?;
     talk.say(&print::audit(&case.vessel, &case.scene.geometry.surface));

@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::ledger::{Ledger, Stage};
 use crate::plan::Plan;
+use crate::quality::generator_name;
 use std::fmt::Write;
 use vaso_boundary::{Condition, Signal, Source};
 use vaso_scene::Word;
@@ -49,8 +50,9 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     );
     let _ = writeln!(
         out,
-        "bodies   blood   fluid {:>9}   spacing {:.3} mm   density {} kg/m3   viscosity {} mPa s",
+        "bodies   blood   fluid {:>9}   {}   spacing {:.3} mm   density {} kg/m3   viscosity {} mPa s",
         p.particles.fluid,
+        generator_name(case.scene.particles.generator),
         n.spacing * 1e3,
         n.rest_density,
         viscosity

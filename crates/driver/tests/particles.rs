@@ -175,6 +175,7 @@ fn the_outer_surface_is_written_in_the_unit_of_the_inner() {
         vaso
     };
     refused(&mut extrude("out", &[]), &["--extrude-by"]);
+    refused(&mut extrude("out", &["--extrude-by=-1 mm"]), &["outer.stl"]);
     refused(&mut extrude("out", &["--extrude-by", "0.6"]), &["--extrude-by", "unit"]);
     assert!(!file.exists() && !folder.path().join("out").exists());
     let report = json(&mut extrude("out", &["--extrude-by", "0.6 mm"]));
@@ -250,6 +251,7 @@ fn wrong_flags_end_with_two_and_write_nothing() {
         (["--smoothing", "5"], "multiblock"),
         (["--unit", "ft"], "geometry.unit"),
         (["--extrude-by", "1 mm"], "--extrude"),
+        (["--extrude", "no/such/folder/outer.stl"], "nothing says how far"),
     ] {
         for what in [folder.path(), &surface] {
             let flag = |pair: [&str; 2]| pair.map(str::to_owned).join("=");

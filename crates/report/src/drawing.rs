@@ -65,7 +65,7 @@ const FINE: f64 = 0.3;
 const MARGIN: f64 = 10.0;
 const FOOT: f64 = 26.0;
 /// How much of their colour the farthest lines keep.
-const FARTHEST: f64 = 0.3;
+const FARTHEST: f64 = 0.45;
 
 impl Drawing {
     /// An empty drawing.
@@ -97,12 +97,12 @@ impl Drawing {
         })
     }
 
-    /// The drawing as a group of SVG elements `width` pixels wide with a scale bar below, and its height.
-    fn group(&self, width: f64) -> (String, f64) {
+    /// The drawing as a group of SVG elements `width` pixels wide with a scale bar below, and its height; `scale` is
+    /// that of pixels to metres.
+    fn group(&self, width: f64, scale: f64) -> (String, f64) {
         let (low, high) = self.bounds();
         let extent = high - low;
-        let scale = (width - 2.0 * MARGIN) / extent.max_element();
-        if !scale.is_finite() {
+        if !(scale.is_finite() && extent.is_finite()) {
             return (String::new(), FOOT);
         }
         let height = extent.y * scale + 2.0 * MARGIN;
@@ -162,24 +162,24 @@ impl Drawing {
 /// Path through pixels, without points that no eye can tell from the line.
 fn path(points: &[DVec2]) -> String {
     let mut text = String::new();
-    let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
-    for (k, &x) in points.iter().enumerate() {
-        let is_last = k + 1 == points.len();
-        if is_last || kept.last().is_none_or(|last| is_needed(*last, x, points[k + 1])) {
-            let _ = write!(text, "{}{:.1} {:.1}", if kept.is_empty() { "M" } else { "L" }, x.x, x.y);
-            kept.push(x);
-        }
+    let mut next = 0;
+    while let Some(x) = points.get(next) {
+        let _ = write!(text, "{}{:.1} {:.1}", if next == 0 { "M" } else { "L" }, x.x, x.y);
+        let last = (next + 1..points.len()).take_while(|&end| is_straight(&points[next..=end])).last();
+        next = last.unwrap_or(points.len());
     }
     text
 }
 
-/// Whether leaving out `x` between `a` and `b` would show.
-fn is_needed(a: DVec2, x: DVec2, b: DVec2) -> bool {
-    let way = (b - a).normalize_or_zero();
-    way == DVec2::ZERO || (x - a).perp_dot(way).abs() > FINE || x.distance(a) > 200.0
+/// Whether the points between the ends lie on the line between these.
+fn is_straight(points: &[DVec2]) -> bool {
+    let [first, inner @ .., last] = points else { return true };
+    let way = (last - first).normalize_or_zero();
+    let foot = |x: DVec2| *first + way * (x - first).dot(way).clamp(0.0, first.distance(*last));
+    inner.iter().all(|x| foot(*x).distance(*x) < FINE)
 }
 
-/// Drawings with titles beside each other, `columns` in a row of `width` pixels, as one SVG element.
+/// Drawings with titles beside each other on one scale, `columns` in a row of `width` pixels, as one SVG element.
 ///
 /// `label` says what is seen. A file of its own needs `is_file`; within a page the element goes without the name of
 /// its language. The ground is white on purpose, as colours are chosen for it.
@@ -187,9 +187,12 @@ pub fn sheet(panels: &[(&str, &Drawing)], columns: usize, width: u32, label: &st
     const TITLE: f64 = 24.0;
     let columns = columns.clamp(1, panels.len().max(1));
     let panel = f64::from(width) / columns as f64;
+    let extents =
+        panels.iter().map(|(_, drawing)| drawing.bounds()).map(|(low, high)| (high - low).max_element());
+    let scale = (panel - 2.0 * MARGIN) / extents.fold(0.0, f64::max);
     let (mut body, mut top) = (String::new(), 0.0);
     for row in panels.chunks(columns) {
-        let groups: Vec<(String, f64)> = row.iter().map(|(_, drawing)| drawing.group(panel)).collect();
+        let groups: Vec<(String, f64)> = row.iter().map(|(_, drawing)| drawing.group(panel, scale)).collect();
         for (k, ((title, _), (svg, _))) in row.iter().zip(&groups).enumerate() {
             let left = k as f64 * panel;
             let _ = write!(
