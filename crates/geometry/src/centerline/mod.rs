@@ -73,7 +73,7 @@ impl Centerlines {
         let ways = path::Ways::to(vessel, &wall, root.center)?;
         let step = others.iter().map(|o| o.radius).fold(root.radius, f64::min) / STEPS_ACROSS;
         let leaf = |o: &crate::Opening| {
-            let inner = ways.from_root(o.center)?;
+            let inner = ways.way_to(o.center)?;
             let way = std::iter::once(root.center).chain(inner).chain([o.center]);
             let width = |x: DVec3| WIDTH * wall.query(x).distance.abs().max(2.0 * step);
             Some(Curve::new(way).resampled(step).smoothed(width).resampled(step))

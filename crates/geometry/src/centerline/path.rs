@@ -103,7 +103,7 @@ impl Ways {
     }
 
     /// Grid points from the root to the one nearest to `x`; `None` when no point has a way.
-    pub(super) fn from_root(&self, x: DVec3) -> Option<Vec<DVec3>> {
+    pub(super) fn way_to(&self, x: DVec3) -> Option<Vec<DVec3>> {
         let mut k = self.nearest(x, |k| self.next[k] != u32::MAX)?;
         let mut way = vec![self.point(k)];
         while self.next[k] as usize != k {
