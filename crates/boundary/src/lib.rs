@@ -6,4 +6,4 @@ pub mod waveform;
 
 pub use buffer::{BUFFER_LENGTH, Condition, Counters, Openings, Port, Reading};
 pub use profile::Profile;
-pub use waveform::{Signal, Source, Waveform, WaveformError};
+pub use waveform::{Fourier, Interpolation, Signal, Source, Waveform, WaveformError};
