@@ -40,7 +40,9 @@ impl CoupledState {
     }
 
     /// The state of which [`Self::to_array`] gave the numbers.
-    pub fn from_array([pressure, stored_pressure, flow, section, window_volume, window_time]: [f64; 6]) -> Self {
+    pub fn from_array(
+        [pressure, stored_pressure, flow, section, window_volume, window_time]: [f64; 6],
+    ) -> Self {
         let outlet = OutletState { pressure, stored_pressure, flow };
         Self { outlet, section, window_volume, window_time }
     }
@@ -79,6 +81,17 @@ impl Outlet {
         }
     }
 
+    /// Takes up what the buffer shows over an acoustic step of `duration` \[s\]: a mean `velocity` \[m/s\] out of the
+    /// vessel, and a `section` \[m^2\] that its particles fill.
+    ///
+    /// The section rises and falls as layers of particles pass the ends of the buffer. Its mean over the way through the
+    /// buffer does not, and makes the flow the one that passes, also where the lumen is not as wide as the cap.
+    pub(crate) fn follow(&mut self, velocity: f64, section: f64, length: f64, duration: f64) {
+        let passed = (velocity.abs() * duration / length).min(1.0);
+        self.state.section += passed * (section - self.state.section);
+        self.step(self.state.section * velocity, duration);
+    }
+
     /// Takes an acoustic step of `duration` \[s\] in which `flow` \[m^3/s\] leaves through the cap.
     pub(crate) fn step(&mut self, flow: f64, duration: f64) {
         let CoupledState { outlet, window_volume, window_time, .. } = &mut self.state;
@@ -99,4 +112,30 @@ impl Outlet {
             }
         }
     }
+}
+
+/// Gives all outlets the smoothing of the slowest, which [`common_pressure`] relies on.
+pub(crate) fn share_smoothing<'a>(outlets: impl Iterator<Item = &'a mut Outlet>) {
+    let outlets: Vec<&mut Outlet> = outlets.collect();
+    let slowest = outlets.iter().map(|o| o.smoothing).fold(0.0, f64::max);
+    for outlet in outlets {
+        outlet.smoothing = slowest;
+    }
+}
+
+/// Mean pressure of outlets, weighted by what they let through \[Pa\].
+///
+/// Taken as the level of the fluid's pressure it leaves only the differences between outlets in the fluid. With weights 1/R
+/// these differences still take energy out for any flows, `sum R_k Q_k^2 >= (sum Q_k)^2 / sum 1/R_k`, as long as all flows are
+/// smoothed alike. Other weights, or unlike smoothing, feed the sound that runs between outlets.
+pub(crate) fn common_pressure<'a>(outlets: impl Iterator<Item = &'a Outlet> + Clone) -> f64 {
+    let impedance = |outlet: &Outlet| outlet.model.impedance(outlet.smoothing);
+    let largest = outlets.clone().map(impedance).fold(0.0, f64::max);
+    // Outlets of no resistance share the weight, rather than having an infinite one.
+    let weight =
+        |outlet: &Outlet| if largest > 0.0 { 1.0 / impedance(outlet).max(1e-6 * largest) } else { 1.0 };
+    let (sum, total) = outlets.fold((0.0, 0.0), |(sum, total), outlet| {
+        (sum + weight(outlet) * outlet.state.outlet.pressure, total + weight(outlet))
+    });
+    sum / total
 }

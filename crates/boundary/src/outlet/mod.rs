@@ -8,7 +8,7 @@ mod coupling;
 mod periodic;
 
 pub use coupling::{CoupledState, Coupling};
-pub(crate) use coupling::Outlet;
+pub(crate) use coupling::{Outlet, common_pressure, share_smoothing};
 pub use periodic::{Cycle, mean_split};
 
 use crate::error::BoundaryError;
@@ -170,5 +170,7 @@ impl Windkessel {
     }
 }
 
+#[cfg(test)]
+mod acoustics;
 #[cfg(test)]
 mod tests;

@@ -29,8 +29,8 @@ fn exact_for_sine(tau: f64, t: f64) -> f64 {
     let w = TAU / PERIOD;
     let left = (-t / tau).exp();
     let steady = -R_D * MEAN * (-t / tau).exp_m1();
-    let wave = R_D * SWING / (1.0 + w * w * tau * tau)
-        * ((w * t).sin() - w * tau * (w * t).cos() + w * tau * left);
+    let wave =
+        R_D * SWING / (1.0 + w * w * tau * tau) * ((w * t).sin() - w * tau * (w * t).cos() + w * tau * left);
     P_D + steady + wave + R_P * sine(t)
 }
 
@@ -149,7 +149,10 @@ fn the_periodic_start_returns_after_a_cycle() {
     for tau in [0.0, 1e-3, 0.3, 2.3, 50.0, 1e9, f64::INFINITY] {
         let model = windkessel(tau);
         let cycle = model.periodic(&flow).expect("periodic");
-        assert!((cycle.mean - P_D - (R_P + R_D) * flow.mean()).abs() < 1e-5 * cycle.mean, "tau {tau} s: {cycle:?}");
+        assert!(
+            (cycle.mean - P_D - (R_P + R_D) * flow.mean()).abs() < 1e-5 * cycle.mean,
+            "tau {tau} s: {cycle:?}"
+        );
         let n = 800;
         let end = (1..=n).fold(cycle.start, |state, k| {
             let t = PERIOD * f64::from(k) / f64::from(n);
@@ -161,7 +164,8 @@ fn the_periodic_start_returns_after_a_cycle() {
 
 #[test]
 fn a_mean_inflow_parts_by_resistance() {
-    let outlet = |r: f64| Windkessel { proximal_resistance: 0.2 * r, distal_resistance: 0.8 * r, ..windkessel(1.0) };
+    let outlet =
+        |r: f64| Windkessel { proximal_resistance: 0.2 * r, distal_resistance: 0.8 * r, ..windkessel(1.0) };
     let (pressure, shares) = mean_split(&[outlet(1e9), outlet(3e9)], 8e-6).expect("valid");
     assert!((shares[0] - 0.75).abs() < 1e-12 && (shares[1] - 0.25).abs() < 1e-12, "{shares:?}");
     assert!((pressure - (P_D + 8e-6 * 0.75e9)).abs() < 1e-9);

@@ -190,8 +190,9 @@ impl Waveform {
     /// Rows of one period: without the last one where it repeats the first.
     fn rows(&self) -> usize {
         let n = self.time.len();
-        let repeated =
-            self.period.is_some_and(|period| n > 1 && self.time[n - 1] - self.time[0] > period * (1.0 - 1e-9));
+        let repeated = self
+            .period
+            .is_some_and(|period| n > 1 && self.time[n - 1] - self.time[0] > period * (1.0 - 1e-9));
         n - usize::from(repeated)
     }
 
@@ -246,11 +247,7 @@ impl Waveform {
         let period = self.period.ok_or(WaveformError::NoPeriod)?;
         if let Form::Series(series) = &self.form {
             let part = |all: &[f64]| (0..count).map(|k| all.get(k).copied().unwrap_or(0.0)).collect();
-            return Ok(Fourier {
-                cosine: part(&series.cosine),
-                sine: part(&series.sine),
-                ..series.clone()
-            });
+            return Ok(Fourier { cosine: part(&series.cosine), sine: part(&series.sine), ..series.clone() });
         }
         let start = self.time[0];
         let rows = self.rows();
@@ -261,8 +258,7 @@ impl Waveform {
             return Ok(Fourier::of_samples(&self.value[..rows], start, period, count));
         }
         let n = SAMPLES.max(8 * count);
-        let samples: Vec<f64> =
-            (0..n).map(|j| self.at(start + period * j as f64 / n as f64)).collect();
+        let samples: Vec<f64> = (0..n).map(|j| self.at(start + period * j as f64 / n as f64)).collect();
         Ok(Fourier::of_samples(&samples, start, period, count))
     }
 
@@ -402,11 +398,7 @@ mod tests {
 
     #[test]
     fn every_interpolation_has_the_mean_it_says() {
-        for by in [
-            Interpolation::Linear,
-            Interpolation::Monotone,
-            Interpolation::Fourier { harmonics: 6 },
-        ] {
+        for by in [Interpolation::Linear, Interpolation::Monotone, Interpolation::Fourier { harmonics: 6 }] {
             let wave = beat().interpolated(by).expect("possible");
             assert!((wave.mean() - mean_of_samples(&wave)).abs() < 1e-6, "{by:?}");
         }
