@@ -1,6 +1,7 @@
 //! Imposes the conditions on the particles in the buffers, and reads what comes of it.
 
 use crate::openings::Openings;
+use crate::outlet::Seen;
 use crate::port::{Condition, Reading};
 use vaso_fluid::{Fluid, FluidState, Real};
 
@@ -23,7 +24,7 @@ impl Openings {
                 (_, pressure) => pressure.unwrap_or(0.0) - reference,
             })
             .collect();
-        let mut seen = vec![Seen::default(); self.ports.len()];
+        let mut sums = vec![Sums::default(); self.ports.len()];
         let mut top: f64 = 0.0;
         for (zone, shape) in self.zones.iter().zip(&self.shape) {
             let (i, k) = (zone.particle as usize, zone.opening as usize);
@@ -31,37 +32,46 @@ impl Openings {
             let owned = fluid.state.opening[i] == k as i32;
             let velocity = match port.condition {
                 // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
-                Condition::Velocity { .. } if owned => -zone.normal * (imposed[k] * shape),
-                Condition::Velocity { .. } => continue,
-                _ if !zone.in_buffer => continue,
+                Condition::Velocity { .. } if owned => Some(-zone.normal * (imposed[k] * shape)),
+                Condition::Velocity { .. } => None,
+                _ if !zone.in_buffer => None,
                 _ => {
                     let rho = rest_density + fluid.state.density_change[i];
                     let pushed = fluid.state.velocity[i] + dt * imposed[k] / rho * fluid.missing_support(i);
                     let mut outward = pushed.dot(zone.normal);
-                    if port.outlet.is_some() {
-                        let mass = fluid.state.mass[i];
-                        if outward < 0.0 {
-                            // The traction beta rho |v| v / 2 on the cap, spread over the buffer, taken implicitly.
-                            let damping = 0.5 * self.backflow_damping * outward.abs() * dt / length;
-                            let slower = outward / (1.0 + damping);
-                            seen[k].damped += 0.5 * mass * (outward * outward - slower * slower);
-                            outward = slower;
-                        }
-                        if owned {
-                            seen[k].volume += mass / rest_density;
-                            seen[k].moment += mass / rest_density * outward;
-                        }
+                    if port.outlet.is_some() && outward < 0.0 {
+                        // The traction beta rho |v| v / 2 on the cap, spread over the buffer, taken implicitly.
+                        let slower =
+                            outward / (1.0 + 0.5 * self.backflow_damping * outward.abs() * dt / length);
+                        let loss = outward * outward - slower * slower;
+                        sums[k].damped += 0.5 * fluid.state.mass[i] * loss;
+                        outward = slower;
                     }
-                    outward * zone.normal
+                    Some(outward * zone.normal)
                 }
             };
-            fluid.set_velocity(i, velocity, dt);
-            top = top.max(velocity.length());
+            if let Some(velocity) = velocity {
+                fluid.set_velocity(i, velocity, dt);
+                top = top.max(velocity.length());
+            }
+            // The fringe counts: flow that comes in keeps the particles of the buffer half a spacing further in.
+            if port.outlet.is_some() && owned {
+                let volume = fluid.state.mass[i] / rest_density;
+                sums[k].volume += volume;
+                sums[k].moment += volume * fluid.state.velocity[i].dot(zone.normal);
+                sums[k].pressure += volume * fluid.pressure(i);
+            }
         }
-        for (port, seen) in self.ports.iter_mut().zip(&seen) {
-            port.counters.damped_energy += seen.damped;
-            if let (Some(outlet), true) = (&mut port.outlet, seen.volume > 0.0) {
-                outlet.follow(seen.moment / seen.volume, seen.volume / length, length, dt);
+        for ((port, sum), imposed) in self.ports.iter_mut().zip(&sums).zip(&imposed) {
+            port.counters.damped_energy += sum.damped;
+            if let (Some(outlet), true) = (&mut port.outlet, sum.volume > 0.0) {
+                let buffer = Seen {
+                    velocity: sum.moment / sum.volume,
+                    section: sum.volume / length,
+                    pressure: reference + sum.pressure / sum.volume,
+                    imposed: reference + imposed,
+                };
+                outlet.follow(buffer, length, dt);
             }
         }
         top
@@ -102,13 +112,15 @@ impl Openings {
     }
 }
 
-/// What the particles of a buffer show in a step.
+/// What is added up over the particles of a buffer in a step.
 #[derive(Clone, Copy, Debug, Default)]
-struct Seen {
+struct Sums {
     /// Volume of those that belong to it \[m^3\].
     volume: f64,
     /// Their volume times velocity out of the vessel \[m^4/s\].
     moment: f64,
+    /// Their volume times pressure, relative to the reference \[Pa m^3\].
+    pressure: f64,
     /// Energy taken from those that come in \[J\].
     damped: f64,
 }

@@ -1,6 +1,6 @@
 //! All openings of a run, and the pressure level they set.
 
-use crate::outlet::{Coupling, Outlet, OutletState, common_pressure, share_smoothing};
+use crate::outlet::{Coupling, Outlet, OutletState, common_pressure, share_settling};
 use crate::port::{Condition, Counters, Port, PortState};
 use vaso_fluid::{CapZone, Numbers};
 use vaso_geometry::Opening;
@@ -54,7 +54,7 @@ impl Openings {
                 Port { opening, condition, counters: Counters::default(), outlet, flow_factor: 1.0 }
             })
             .collect();
-        share_smoothing(ports.iter_mut().filter_map(|p| p.outlet.as_mut()));
+        share_settling(ports.iter_mut().filter_map(|p| p.outlet.as_mut()));
         let fixed_value = ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }));
         let reference = match (reference_pressure, fixed_value) {
             (Some(pressure), _) => Reference::Fixed(pressure),

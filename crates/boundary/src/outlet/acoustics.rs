@@ -1,6 +1,6 @@
 //! Coupled outlets on lines that only carry sound: what an explicit coupling has to survive.
 
-use super::coupling::{Outlet, common_pressure, share_smoothing};
+use super::coupling::{Outlet, Seen, common_pressure, share_settling};
 use super::{Coupling, Integration, Windkessel};
 
 const RHO: f64 = 1060.0;
@@ -27,9 +27,15 @@ impl Line {
         Self { area, pressure: vec![0.0; cells], flow: vec![0.0; cells] }
     }
 
-    /// Flow over the buffer, as the fluid measures it.
-    fn measured(&self) -> f64 {
-        self.flow[self.flow.len() - 4..].iter().sum::<f64>() / 4.0
+    /// What the buffer shows, against the imposed and the reference pressure.
+    fn seen(&self, imposed: f64, reference: f64) -> Seen {
+        let mean = |values: &[f64]| values[values.len() - 4..].iter().sum::<f64>() / 4.0;
+        Seen {
+            velocity: mean(&self.flow) / self.area,
+            section: self.area,
+            pressure: reference + mean(&self.pressure),
+            imposed,
+        }
     }
 
     fn kick(&mut self, beyond: f64, dt: f64, loss: f64) {
@@ -71,12 +77,11 @@ fn run(outlets: &mut [Outlet], cells: usize, transits: usize, level: bool, loss:
     let steps = (transits * cells) as f64 / STEP;
     let mut seen = vec![(0.0, f64::INFINITY, f64::NEG_INFINITY, 0.0, 0.0); outlets.len()];
     for step in 0..steps as usize {
-        for (outlet, line) in outlets.iter_mut().zip(&lines) {
-            outlet.step(line.measured(), dt);
-        }
         let reference = if level { 0.0 } else { common_pressure(outlets.iter()) };
-        for (outlet, line) in outlets.iter().zip(&mut lines) {
-            line.kick(outlet.state.outlet.pressure - reference, dt, loss);
+        for (outlet, line) in outlets.iter_mut().zip(&mut lines) {
+            let imposed = outlet.state.outlet.pressure;
+            line.kick(imposed - reference, dt, loss);
+            outlet.follow(line.seen(imposed, reference), 4.0 * DP, dt);
         }
         // The flow out of the trunk is that over the faces into the lines, each with half its pressure drop.
         let joint = trunk.pressure[cells - 1];
@@ -108,8 +113,8 @@ fn a_resistance_settles_at_its_pressure_however_large_it_is() {
             let mut one = [outlet(Windkessel::resistance(ratio * Z, 0.0), AREA)];
             let late = &run(&mut one, cells, 400, true, 1e-4)[0];
             let pressure = late.pressure / (ratio * Z * INFLOW);
-            assert!((pressure - 1.0).abs() < 5e-3, "R/Z {ratio}, {cells} spacings: {late:?}");
-            assert!(late.flow_range < 0.1 * INFLOW, "R/Z {ratio}, {cells} spacings: {late:?}");
+            assert!((pressure - 1.0).abs() < 1e-3, "R/Z {ratio}, {cells} spacings: {late:?}");
+            assert!(late.flow_range < 0.01 * INFLOW, "R/Z {ratio}, {cells} spacings: {late:?}");
         }
     }
 }
@@ -117,12 +122,12 @@ fn a_resistance_settles_at_its_pressure_however_large_it_is() {
 #[test]
 fn outlets_relative_to_their_common_pressure_come_to_rest() {
     for cells in [40, 80, 160] {
-        for ratio in [0.3, 1.0, 5.0, 10.0, 20.0] {
+        for ratio in [0.3, 1.0, 2.0, 5.0, 10.0] {
             // Each over the impedance of its half of the section.
             let models = [0.5, 1.0].map(|r| Windkessel::resistance(r * 2.0 * ratio * Z, 0.0));
             let mut two = models.map(|m| outlet(m, AREA / 2.0));
-            share_smoothing(two.iter_mut());
-            let late = run(&mut two, cells, 200, false, 1e-4);
+            share_settling(two.iter_mut());
+            let late = run(&mut two, cells, 400, false, 1e-4);
             for (one, model) in late.iter().zip(&models) {
                 let pressure = one.pressure / (model.proximal_resistance * one.flow);
                 assert!((pressure - 1.0).abs() < 5e-3, "R/Z {ratio}, {cells} spacings: {late:?}");
@@ -133,7 +138,7 @@ fn outlets_relative_to_their_common_pressure_come_to_rest() {
 }
 
 #[test]
-fn a_short_window_with_a_large_resistance_is_what_the_smoothing_is_for() {
+fn a_short_window_is_unstable_where_the_implicit_coupling_is_not() {
     let cells = 80;
     let window = |transits: f64| {
         let mut one = [outlet(Windkessel::resistance(5.0 * Z, 0.0), AREA)];

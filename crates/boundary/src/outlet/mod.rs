@@ -8,7 +8,7 @@ mod coupling;
 mod periodic;
 
 pub use coupling::{CoupledState, Coupling};
-pub(crate) use coupling::{Outlet, common_pressure, share_smoothing};
+pub(crate) use coupling::{Outlet, Seen, common_pressure, share_settling};
 pub use periodic::{Cycle, mean_split};
 
 use crate::error::BoundaryError;
@@ -113,6 +113,11 @@ impl Windkessel {
     /// Pressure per flow that the cap sees after a constant flow has lasted `duration` \[s\] \[Pa s/m^3\].
     pub fn impedance(&self, duration: f64) -> f64 {
         self.proximal_resistance + self.response(duration).constant
+    }
+
+    /// Pressure at the end of a step of `duration` \[s\] per flow at its end \[Pa s/m^3\].
+    pub(crate) fn slope(&self, duration: f64) -> f64 {
+        self.proximal_resistance + self.response(duration).rising
     }
 
     /// Mean pressure per mean flow, R_p + R_d \[Pa s/m^3\]; R_p alone for a resistance.
