@@ -1,9 +1,17 @@
 #![doc = include_str!("../README.md")]
 
-pub mod buffer;
+mod buffer;
+pub mod error;
+mod impose;
+pub mod openings;
+pub mod outlet;
+pub mod port;
 pub mod profile;
 pub mod waveform;
 
-pub use buffer::{BUFFER_LENGTH, Condition, Counters, Openings, Port, Reading};
+pub use error::BoundaryError;
+pub use openings::{BUFFER_LENGTH, Openings};
+pub use outlet::{CoupledState, Coupling, Cycle, Integration, OutletState, Windkessel, mean_split};
+pub use port::{Condition, Counters, Port, PortState, Reading};
 pub use profile::Profile;
-pub use waveform::{Signal, Source, Waveform, WaveformError};
+pub use waveform::{Fourier, Interpolation, Signal, Source, Waveform, WaveformError};

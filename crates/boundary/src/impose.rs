@@ -1,0 +1,126 @@
+//! Imposes the conditions on the particles in the buffers, and reads what comes of it.
+
+use crate::openings::Openings;
+use crate::outlet::Seen;
+use crate::port::{Condition, Reading};
+use vaso_fluid::{Fluid, FluidState, Real};
+
+/// Length of the section inside a velocity buffer over which the pressure is averaged, in
+/// spacings. The buffer itself carries no meaningful pressure.
+const SECTION: f64 = 4.0;
+
+impl Openings {
+    /// Imposes the conditions on the buffers after the kick of an acoustic step of `dt` \[s\] that
+    /// ends at `t` \[s\], and lets the outlet models follow. Returns the top speed in the buffers \[m/s\].
+    ///
+    /// A pressure enters through the missing kernel support; along the cap the velocity is removed,
+    /// since nothing outside could drive it.
+    pub fn apply<R: Real>(&mut self, fluid: &mut Fluid<R>, t: f64, dt: f64) -> f64 {
+        let reference = self.reference_pressure(t);
+        let (rest_density, length) = (self.numbers.rest_density, self.buffer_length());
+        let imposed: Vec<f64> = (0..self.ports.len())
+            .map(|k| match (&self.ports[k].condition, self.pressure_value(k, t)) {
+                (Condition::Velocity { mean, .. }, _) => mean.at(t) * self.ports[k].flow_factor,
+                (_, pressure) => pressure.unwrap_or(0.0) - reference,
+            })
+            .collect();
+        let mut sums = vec![Sums::default(); self.ports.len()];
+        let mut top: f64 = 0.0;
+        for (zone, shape) in self.zones.iter().zip(&self.shape) {
+            let (i, k) = (zone.particle as usize, zone.opening as usize);
+            let port = &self.ports[k];
+            let owned = fluid.state.opening[i] == k as i32;
+            let velocity = match port.condition {
+                // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
+                Condition::Velocity { .. } if owned => Some(-zone.normal * (imposed[k] * shape)),
+                Condition::Velocity { .. } => None,
+                _ if !zone.in_buffer => None,
+                _ => {
+                    let rho = rest_density + fluid.state.density_change[i];
+                    let pushed = fluid.state.velocity[i] + dt * imposed[k] / rho * fluid.missing_support(i);
+                    let mut outward = pushed.dot(zone.normal);
+                    if port.outlet.is_some() && outward < 0.0 {
+                        // The traction beta rho |v| v / 2 on the cap, spread over the buffer, taken implicitly.
+                        let slower =
+                            outward / (1.0 + 0.5 * self.backflow_damping * outward.abs() * dt / length);
+                        let loss = outward * outward - slower * slower;
+                        sums[k].damped += 0.5 * fluid.state.mass[i] * loss;
+                        outward = slower;
+                    }
+                    Some(outward * zone.normal)
+                }
+            };
+            if let Some(velocity) = velocity {
+                fluid.set_velocity(i, velocity, dt);
+                top = top.max(velocity.length());
+            }
+            // The fringe counts: flow that comes in keeps the particles of the buffer half a spacing further in.
+            if port.outlet.is_some() && owned {
+                let volume = fluid.state.mass[i] / rest_density;
+                sums[k].volume += volume;
+                sums[k].moment += volume * fluid.state.velocity[i].dot(zone.normal);
+                sums[k].pressure += volume * fluid.pressure(i);
+            }
+        }
+        for ((port, sum), imposed) in self.ports.iter_mut().zip(&sums).zip(&imposed) {
+            port.counters.damped_energy += sum.damped;
+            if let (Some(outlet), true) = (&mut port.outlet, sum.volume > 0.0) {
+                let buffer = Seen {
+                    velocity: sum.moment / sum.volume,
+                    section: sum.volume / length,
+                    pressure: reference + sum.pressure / sum.volume,
+                    imposed: reference + imposed,
+                };
+                outlet.follow(buffer, length, dt);
+            }
+        }
+        top
+    }
+
+    /// Mean state of the openings at `t` \[s\]; needs [`Self::locate`] before it.
+    pub fn measure(&self, state: &FluidState, t: f64) -> Vec<Reading> {
+        let (near, far) = (self.buffer_length(), self.buffer_length() + SECTION * self.spacing);
+        let reference = self.reference_pressure(t);
+        let mut readings: Vec<Reading> = vec![Reading::default(); self.ports.len()];
+        for zone in &self.zones {
+            let (i, k) = (zone.particle as usize, zone.opening as usize);
+            if state.opening[i] != k as i32 {
+                continue;
+            }
+            let volume = state.mass[i] / self.numbers.rest_density;
+            readings[k].flow += volume * state.velocity[i].dot(zone.normal) / near;
+        }
+        for (k, port) in self.ports.iter().enumerate() {
+            readings[k].outlet = port.outlet.as_ref().map(|o| o.state.outlet);
+            readings[k].pressure = match self.pressure_value(k, t) {
+                Some(pressure) => pressure,
+                None => {
+                    let (sum, n) = (0..state.len())
+                        .filter(|&i| {
+                            let x = state.position[i];
+                            (near..far).contains(&port.opening.depth(x))
+                                && port.opening.lateral(x) < port.opening.radius
+                        })
+                        .fold((0.0, 0), |(sum, n), i| {
+                            (sum + self.numbers.pressure(state.density_change[i]), n + 1)
+                        });
+                    reference + sum / f64::from(n.max(1))
+                }
+            };
+        }
+        readings
+    }
+}
+
+/// What is added up over the particles of a buffer in a step.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    /// Volume of those that belong to it \[m^3\].
+    volume: f64,
+    /// Their volume times velocity out of the vessel \[m^4/s\].
+    moment: f64,
+    /// Their volume times pressure, relative to the reference \[Pa m^3\].
+    pressure: f64,
+    /// Energy taken from those that come in \[J\].
+    damped: f64,
+}

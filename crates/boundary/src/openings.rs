@@ -1,0 +1,157 @@
+//! All openings of a run, and the pressure level they set.
+
+use crate::outlet::{Coupling, Outlet, OutletState, common_pressure, share_settling};
+use crate::port::{Condition, Counters, Port, PortState};
+use vaso_fluid::{CapZone, Numbers};
+use vaso_geometry::Opening;
+
+/// Length of a buffer, in spacings.
+pub const BUFFER_LENGTH: f64 = 4.0;
+
+/// What the pressure of the fluid is relative to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reference {
+    /// The same at all times \[Pa\].
+    Fixed(f64),
+    /// The pressure imposed at an opening.
+    Opening(usize),
+    /// The common pressure of the outlet models.
+    Outlets,
+}
+
+/// Strength of the damping of backflow at outlet models (Moghadam et al. 2011: 0 to 1).
+const BACKFLOW_DAMPING: f64 = 0.5;
+
+/// All openings of a run.
+#[derive(Clone, Debug)]
+pub struct Openings {
+    pub(crate) ports: Vec<Port>,
+    pub(crate) numbers: Numbers,
+    pub(crate) spacing: f64,
+    pub(crate) next_id: u64,
+    reference: Reference,
+    pub(crate) backflow_damping: f64,
+    pub(crate) zones: Vec<CapZone>,
+    /// Unit-mean profile value at each zone entry.
+    pub(crate) shape: Vec<f64>,
+}
+
+impl Openings {
+    /// Openings with their conditions, for a fluid of given numbers.
+    ///
+    /// Without a fixed `reference_pressure` \[Pa\] that of the first pressure opening is followed, or else the common
+    /// one of the outlet models: it does no work on a rigid lumen, so the equation of state need not carry it.
+    pub fn new(ports: Vec<(Opening, Condition)>, numbers: &Numbers, reference_pressure: Option<f64>) -> Self {
+        let length = BUFFER_LENGTH * numbers.spacing;
+        let transit = length / numbers.sound_speed;
+        let mut ports: Vec<Port> = ports
+            .into_iter()
+            .map(|(opening, condition)| {
+                let impedance = numbers.rest_density * numbers.sound_speed / opening.area;
+                let outlet = condition
+                    .model()
+                    .map(|(model, pressure)| Outlet::new(model, pressure, impedance, transit, opening.area));
+                Port { opening, condition, counters: Counters::default(), outlet, flow_factor: 1.0 }
+            })
+            .collect();
+        share_settling(ports.iter_mut().filter_map(|p| p.outlet.as_mut()));
+        let fixed_value = ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }));
+        let reference = match (reference_pressure, fixed_value) {
+            (Some(pressure), _) => Reference::Fixed(pressure),
+            (None, Some(k)) => Reference::Opening(k),
+            (None, None) if ports.iter().any(|p| p.outlet.is_some()) => Reference::Outlets,
+            (None, None) => Reference::Fixed(0.0),
+        };
+        Self {
+            ports,
+            numbers: *numbers,
+            spacing: numbers.spacing,
+            next_id: 0,
+            reference,
+            backflow_damping: BACKFLOW_DAMPING,
+            zones: Vec::new(),
+            shape: Vec::new(),
+        }
+    }
+
+    /// Chooses how outlet models take up the flow; [`Coupling::Impedance`] unless called.
+    pub fn set_coupling(&mut self, coupling: Coupling) {
+        for outlet in self.ports.iter_mut().filter_map(|p| p.outlet.as_mut()) {
+            outlet.coupling = coupling;
+        }
+    }
+
+    /// Sets how strongly flow that comes in through an outlet model is damped: 0 not at all, 0.5 unless called, at
+    /// most 1 (Moghadam et al. 2011, there beta).
+    pub fn set_backflow_damping(&mut self, strength: f64) {
+        self.backflow_damping = strength;
+    }
+
+    /// Puts the outlet model of opening `k` into a state, such as the start of its periodic cycle
+    /// ([`Windkessel::periodic`](crate::Windkessel::periodic)); nothing happens at other openings.
+    pub fn set_outlet(&mut self, k: usize, state: OutletState) {
+        if let Some(outlet) = &mut self.ports[k].outlet {
+            outlet.state.outlet = state;
+        }
+    }
+
+    /// What the openings carry from step to step, one by one; with [`Self::next_id`] all that a checkpoint needs.
+    pub fn states(&self) -> Vec<PortState> {
+        let state = |p: &Port| PortState { counters: p.counters, outlet: p.outlet.as_ref().map(|o| o.state) };
+        self.ports.iter().map(state).collect()
+    }
+
+    /// Goes on from what [`Self::states`] and [`Self::next_id`] gave, instead of [`Self::start`].
+    ///
+    /// # Panics
+    /// When there are not as many states as openings, which the reader of a checkpoint has to check.
+    pub fn restore(&mut self, states: &[PortState], next_id: u64) {
+        assert_eq!(states.len(), self.ports.len(), "a state for each opening");
+        self.next_id = next_id;
+        for (port, state) in self.ports.iter_mut().zip(states) {
+            port.counters = state.counters;
+            if let (Some(outlet), Some(state)) = (&mut port.outlet, state.outlet) {
+                outlet.state = state;
+            }
+        }
+    }
+
+    /// The openings.
+    pub fn ports(&self) -> &[Port] {
+        &self.ports
+    }
+
+    /// Identity the next new particle will get.
+    pub fn next_id(&self) -> u64 {
+        self.next_id
+    }
+
+    /// Particles near caps, as [`Self::locate`] found them.
+    pub fn zones(&self) -> &[CapZone] {
+        &self.zones
+    }
+
+    /// Reference pressure at `t` \[s\], which the fluid's pressure is relative to \[Pa\]; where it is that of outlet models,
+    /// the one of their last step.
+    pub fn reference_pressure(&self, t: f64) -> f64 {
+        match self.reference {
+            Reference::Fixed(pressure) => pressure,
+            Reference::Opening(k) => self.pressure_value(k, t).unwrap_or(0.0),
+            Reference::Outlets => common_pressure(self.ports.iter().filter_map(|p| p.outlet.as_ref())),
+        }
+    }
+
+    /// Pressure imposed at opening `k` at `t` \[s\], if it imposes one \[Pa\]; of an outlet model, that of its last
+    /// step.
+    pub fn pressure_value(&self, k: usize, t: f64) -> Option<f64> {
+        let port = &self.ports[k];
+        match &port.condition {
+            Condition::Pressure { value } => Some(value.at(t)),
+            _ => port.outlet.as_ref().map(|outlet| outlet.state.outlet.pressure),
+        }
+    }
+
+    pub(crate) fn buffer_length(&self) -> f64 {
+        BUFFER_LENGTH * self.spacing
+    }
+}

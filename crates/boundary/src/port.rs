@@ -1,0 +1,115 @@
+//! What is imposed at an opening, and what is seen there.
+
+use crate::error::BoundaryError;
+use crate::outlet::{CoupledState, Outlet, OutletState, Windkessel};
+use crate::profile::Profile;
+use crate::waveform::Signal;
+use serde::{Deserialize, Serialize};
+use vaso_geometry::Opening;
+
+/// What is imposed at an opening.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Condition {
+    /// Mean velocity into the vessel \[m/s\] with a shape over the section.
+    Velocity {
+        /// Shape over the section.
+        profile: Profile,
+        /// Section mean, positive into the vessel \[m/s\].
+        mean: Signal,
+    },
+    /// Pressure at the cap \[Pa\].
+    Pressure {
+        /// Pressure over time \[Pa\].
+        value: Signal,
+    },
+    /// Pressure that follows the flow out of the vessel, p = p_d + R Q.
+    Resistance {
+        /// R \[Pa s/m^3\].
+        resistance: f64,
+        /// p_d \[Pa\].
+        distal_pressure: f64,
+    },
+    /// Three-element Windkessel.
+    Windkessel {
+        /// Its resistances and compliance.
+        model: Windkessel,
+        /// Pressure at the start, without flow \[Pa\].
+        initial_pressure: f64,
+    },
+}
+
+impl Condition {
+    /// Whether what is imposed has a meaning.
+    ///
+    /// # Errors
+    /// Names the number that has none.
+    pub fn validate(&self) -> Result<(), BoundaryError> {
+        self.model().map_or(Ok(()), |(model, _)| model.validate())
+    }
+
+    /// Whether it sets a pressure, or relates one to the flow.
+    pub fn sets_pressure(&self) -> bool {
+        !matches!(self, Self::Velocity { .. })
+    }
+
+    /// The outlet model, if it is one, and its pressure at the start \[Pa\].
+    pub fn model(&self) -> Option<(Windkessel, f64)> {
+        match *self {
+            Self::Velocity { .. } | Self::Pressure { .. } => None,
+            Self::Resistance { resistance, distal_pressure } => {
+                Some((Windkessel::resistance(resistance, distal_pressure), distal_pressure))
+            }
+            Self::Windkessel { model, initial_pressure } => Some((model, initial_pressure)),
+        }
+    }
+}
+
+/// What went through an opening since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Counters {
+    /// Particles put in.
+    pub injected: u64,
+    /// Particles taken out.
+    pub deleted: u64,
+    /// Of those, particles the buffer did not own.
+    pub strays: u64,
+    /// Volume that left the vessel, at rest density \[m^3\].
+    pub outflow_volume: f64,
+    /// Kinetic energy that the damping of backflow took \[J\].
+    pub damped_energy: f64,
+}
+
+/// One opening of a run.
+#[derive(Clone, Debug)]
+pub struct Port {
+    /// Cap of the vessel.
+    pub opening: Opening,
+    /// What is imposed there.
+    pub condition: Condition,
+    /// What went through.
+    pub counters: Counters,
+    /// The model behind a resistance or Windkessel.
+    pub(crate) outlet: Option<Outlet>,
+    /// Factor on the imposed velocity of this step.
+    pub(crate) flow_factor: f64,
+}
+
+/// What an opening carries from step to step, to be kept in a checkpoint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PortState {
+    /// What went through.
+    pub counters: Counters,
+    /// Where the outlet model stands, if there is one.
+    pub outlet: Option<CoupledState>,
+}
+
+/// Mean state of an opening.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Flow out of the vessel at rest density, averaged over the particles the buffer owns \[m^3/s\].
+    pub flow: f64,
+    /// The imposed pressure, or else the mean over a section just inside the buffer \[Pa\].
+    pub pressure: f64,
+    /// Where the outlet model stands, if there is one.
+    pub outlet: Option<OutletState>,
+}
