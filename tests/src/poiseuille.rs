@@ -54,7 +54,7 @@ pub fn run_with<R: Real>(across: f64, overrides: &[(&str, &str)]) -> Errors {
     let (mut flow, plan) = flow::<R>(&case);
     let inlet = plan.openings.iter().find_map(|o| match &o.condition {
         Condition::Velocity { mean, .. } => Some((mean.peak(), o.opening.area)),
-        Condition::Pressure { .. } => None,
+        _ => None,
     });
     let (mean, area) = inlet.expect("the pipe has a velocity inlet");
     let radius = 0.5 * DIAMETER;

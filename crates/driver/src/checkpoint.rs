@@ -25,6 +25,13 @@ pub fn write<R: Real>(folder: &Path, flow: &mut Flow<R>) -> Result<(), IoError> 
         &counters.clone().flat_map(|c| [c.injected, c.deleted, c.strays]).collect::<Vec<_>>(),
     );
     archive.put_floats("openings.outflow_volume_m3", &counters.map(|c| c.outflow_volume).collect::<Vec<_>>());
+    archive.put_floats(
+        "openings.damped_energy_j",
+        &flow.openings.ports().iter().map(|p| p.counters.damped_energy).collect::<Vec<_>>(),
+    );
+    // Openings without a model stand as zeros.
+    let outlets = flow.openings.states().into_iter().flat_map(|s| s.outlet.unwrap_or_default().to_array());
+    archive.put_floats("openings.outlets", &outlets.collect::<Vec<_>>());
     archive.put_integers("openings.next_id", &[flow.openings.next_id()]);
     archive.write(&folder.join("checkpoint.h5"))
 }

@@ -61,11 +61,25 @@ impl Flow {
                         inlet = Some((port.opening.radius, peak));
                     }
                 }
+                // The level of outlet models is that of the reference pressure.
+                Condition::Resistance { .. } | Condition::Windkessel { .. } => {
+                    outlet_area += port.opening.area;
+                }
                 Condition::Pressure { value } => {
                     outlet_area += port.opening.area;
                     let (low, high) = value.range();
                     (lowest, highest) = (lowest.min(low), highest.max(high));
                 }
+            }
+        }
+        // Beside a pressure that is given, that of a model counts in full.
+        let is_relative = reference_pressure.is_none() && lowest > highest;
+        for (model, start) in openings.iter().filter_map(|o| o.condition.model()) {
+            if !is_relative {
+                let share = inflow / openings.len() as f64;
+                let driven = model.distal_pressure + model.total_resistance() * share;
+                let driven = if driven.is_finite() { driven } else { start };
+                (lowest, highest) = (lowest.min(start).min(driven), highest.max(start).max(driven));
             }
         }
         if let Some(p) = reference_pressure {

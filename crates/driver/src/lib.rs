@@ -18,6 +18,7 @@ pub mod progress;
 pub mod quality;
 pub mod results;
 pub mod run;
+mod start;
 mod supported;
 pub mod world;
 

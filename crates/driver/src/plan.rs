@@ -3,9 +3,9 @@
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::estimate;
-use crate::supported;
+use crate::{start, supported};
 use glam::DVec3;
-use vaso_boundary::{Condition, Profile, Signal, Source, Waveform};
+use vaso_boundary::{Condition, Profile, Signal, Source, Waveform, Windkessel};
 use vaso_fluid::{Isa, Numbers};
 use vaso_io::{EffectEntry, Predicted};
 use vaso_scene::{Drive, Precision};
@@ -65,7 +65,8 @@ impl Plan {
         let scene = &case.scene;
         let supported::PlannedBlood { density, viscosity, rheology } = supported::blood(scene)?;
         let ramp_default = scene.run.period.map_or(DEFAULT_RAMP, |period| DEFAULT_RAMP.max(0.1 * period));
-        let openings = planned_openings(case, ramp_default)?;
+        let mut openings = planned_openings(case, ramp_default)?;
+        start::periodic(case, &mut openings)?;
         let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
 
         let flow = estimate::Flow::new(
@@ -154,7 +155,7 @@ const DEFAULT_RAMP: f64 = 0.05;
 fn inlet_ramp(condition: &Condition) -> Option<f64> {
     match condition {
         Condition::Velocity { mean, .. } => Some(mean.ramp),
-        Condition::Pressure { .. } => None,
+        _ => None,
     }
 }
 
@@ -192,19 +193,34 @@ fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Drive
             vaso_scene::Condition::Pressure { value } => {
                 signal(value, 1.0, spec.ramp.unwrap_or(0.0)).map(|value| Condition::Pressure { value })
             }
-            other => Err(format!("`{}` is not in this version", other.word())),
+            &vaso_scene::Condition::Resistance { resistance, distal_pressure } => {
+                Ok(Condition::Resistance { resistance, distal_pressure })
+            }
+            &vaso_scene::Condition::Windkessel {
+                proximal_resistance,
+                distal_resistance,
+                compliance,
+                initial_pressure,
+                distal_pressure,
+                periodic_start: _,
+            } => {
+                let model =
+                    Windkessel { proximal_resistance, compliance, distal_resistance, distal_pressure };
+                Ok(Condition::Windkessel { model, initial_pressure })
+            }
         };
-        match condition {
+        let is_sound = |c: Condition| c.validate().map_err(|e| e.to_string()).map(|()| c);
+        match condition.and_then(is_sound) {
             Ok(condition) => {
                 planned.push(PlannedOpening { name: spec.name.clone(), opening: opening.clone(), condition });
             }
             Err(text) => problems.push(format!("{}: `opening.{}`: {text}", scene.file.display(), spec.name)),
         }
     }
-    if problems.is_empty() && !planned.iter().any(|o| matches!(o.condition, Condition::Pressure { .. })) {
+    if problems.is_empty() && !planned.iter().any(|o| o.condition.sets_pressure()) {
         problems.push(format!(
             "{}: all openings prescribe a velocity, so nothing sets the pressure and a mismatch of the flows would \
-             pile up; make one an outlet with `condition = \"pressure\"`",
+             pile up; make one an outlet with `condition = \"pressure\"`, `\"resistance\"` or `\"windkessel\"`",
             scene.file.display()
         ));
     }

@@ -125,6 +125,13 @@ fn condition(c: &Condition) -> String {
                 .replace("Parabolic", "parabolic")
         }
         Condition::Pressure { value } => format!("pressure {}", signal(value, "Pa")),
+        Condition::Resistance { resistance, distal_pressure } => {
+            format!("resistance {resistance:.4e} Pa s/m3 over {distal_pressure} Pa")
+        }
+        Condition::Windkessel { model, initial_pressure } => format!(
+            "windkessel Rp {:.4e} Rd {:.4e} Pa s/m3, C {:.4e} m3/Pa over {} Pa, from {initial_pressure} Pa",
+            model.proximal_resistance, model.distal_resistance, model.compliance, model.distal_pressure
+        ),
     }
 }
 

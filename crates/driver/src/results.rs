@@ -316,7 +316,9 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
                 "blood.density_blend" => &[Stage::Summation],
                 "blood.transport_velocity" => &[Stage::Transport],
                 "wall.rigid" => &[Stage::WallPressure],
-                "opening.velocity" | "opening.pressure" => &[Stage::Exchange, Stage::Openings],
+                "opening.velocity" | "opening.pressure" | "opening.resistance" | "opening.windkessel" => {
+                    &[Stage::Exchange, Stage::Openings]
+                }
                 _ => &[],
             };
             let shared = if effect.name.starts_with("opening.") {

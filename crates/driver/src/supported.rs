@@ -53,8 +53,7 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
                     refuse(key("profile"), "womersley", "\"plug\", \"parabolic\"");
                 }
             }
-            Asked::Pressure { .. } => {}
-            other => refuse(key("condition"), other.word(), "\"velocity\", \"flow\", \"pressure\""),
+            Asked::Pressure { .. } | Asked::Resistance { .. } | Asked::Windkessel { .. } => {}
         }
     }
     for field in &scene.output.fields {
@@ -126,9 +125,13 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
     };
     let inlets = named(&|c| matches!(c, Condition::Velocity { .. }));
     let outlets = named(&|c| matches!(c, Condition::Pressure { .. }));
-    let tables = named(&|c| {
-        let (Condition::Velocity { mean: signal, .. } | Condition::Pressure { value: signal }) = c;
-        matches!(signal.source, Source::Waveform(_))
+    let resistances = named(&|c| matches!(c, Condition::Resistance { .. }));
+    let windkessels = named(&|c| matches!(c, Condition::Windkessel { .. }));
+    let tables = named(&|c| match c {
+        Condition::Velocity { mean: signal, .. } | Condition::Pressure { value: signal } => {
+            matches!(signal.source, Source::Waveform(_))
+        }
+        Condition::Resistance { .. } | Condition::Windkessel { .. } => false,
     });
     let on = |name: &str, reason: String| EffectEntry {
         name: name.into(),
@@ -175,6 +178,8 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
         ),
         either("opening.velocity", &inlets, "no opening prescribes a velocity or flow"),
         either("opening.pressure", &outlets, "no opening prescribes a pressure"),
+        either("opening.resistance", &resistances, "no opening has a resistance"),
+        either("opening.windkessel", &windkessels, "no opening has a Windkessel"),
         either("opening.waveform", &tables, "all openings are steady"),
         either(
             "probes",

@@ -42,6 +42,7 @@ impl Builder<'_> {
                     distal_resistance: section.number("distal_resistance"),
                     compliance: section.number("compliance"),
                     initial_pressure: section.optional_number("initial_pressure").unwrap_or(distal_pressure),
+                    periodic_start: section.flag("periodic_start"),
                     distal_pressure,
                 }
             }

@@ -56,6 +56,8 @@ pub enum Condition {
         compliance: f64,
         /// p at the start \[Pa\].
         initial_pressure: f64,
+        /// Whether the start is that of the periodic cycle under the inflow instead.
+        periodic_start: bool,
         /// p_d \[Pa\].
         distal_pressure: f64,
     },

@@ -144,6 +144,7 @@ pub(crate) const KEYS: &[Key] = &[
     only(WINDKESSEL, "opening.proximal_resistance", Quantity(RESISTANCE, Range::NON_NEGATIVE), Required, "Resistance before the compliance."),
     only(WINDKESSEL, "opening.distal_resistance", Quantity(RESISTANCE, Range::POSITIVE), Required, "Resistance behind the compliance."),
     only(WINDKESSEL, "opening.compliance", Quantity(COMPLIANCE, Range::POSITIVE), Required, "Volume stored per pressure."),
+    only(WINDKESSEL, "opening.periodic_start", Flag, Default("false"), "Start from the pressure that the periodic inflow leads to without a vessel, instead of `initial_pressure`."),
     only(WINDKESSEL, "opening.initial_pressure", Quantity(PRESSURE, Range::ANY), Optional("`distal_pressure`"), "Gauge pressure at the start."),
     only(OUTLET_MODEL, "opening.distal_pressure", Quantity(PRESSURE, Range::ANY), Default("0 Pa"), "Gauge pressure behind the outlet model."),
     //
