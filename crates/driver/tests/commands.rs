@@ -136,6 +136,8 @@ fn wrong_input_ends_with_two_and_writes_nothing() {
         ("particles.spacing=-1 mm", "spacing"),
         ("blood.viscosity=3.5", "viscosity"),
         ("wall.model=shell", "wall"),
+        ("wall.open_ends=boxes", "wall.open_ends"),
+        ("wall.thickness=0.5 mm", "wall.thickness"),
         ("opening.outlet.condition=windkessel", "outlet"),
         ("opening.inlet.near=[100.0, 0.0, 0.0]", "near"),
         ("nonsense.key=1", "nonsense"),

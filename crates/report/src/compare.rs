@@ -82,7 +82,7 @@ fn qualities(report: &CompareReport) -> String {
         Column::Numbers("volume", "variation"),
         Column::Numbers("kernel sum", ""),
         Column::Numbers("h|G|", "rms"),
-        Column::Numbers("volume error", ""),
+        Column::Numbers("volume error", "%"),
         Column::Numbers("outside", ""),
         Column::Numbers("time", "s"),
     ];
@@ -97,7 +97,7 @@ fn qualities(report: &CompareReport) -> String {
             number(q.volume_cv, 3),
             sum.map_or("–".into(), |(mean, std)| format!("{} ± {}", number(mean, 4), number(std, 2))),
             number(q.gradient_residual_rms, 3),
-            number(q.volume_error, 2),
+            format!("{:.2}", 100.0 * q.volume_error).replace('-', "−"),
             count(q.outside),
             number(q.seconds.unwrap_or(f64::NAN), 3),
         ]
