@@ -38,6 +38,7 @@ fn the_example_of_the_contract() {
         distal_resistance: 1.2e9,
         compliance: 8e-10,
         initial_pressure: 85.0 * 133.322387415,
+        periodic_start: false,
         distal_pressure: 0.0,
     };
     assert_eq!(scene.openings[1].condition, outlet);
