@@ -30,7 +30,8 @@ pub struct Plan {
     pub sound_speed_reason: String,
     /// Openings with their conditions, largest first.
     pub openings: Vec<PlannedOpening>,
-    /// Pressure the equation of state is relative to \[Pa\]; `None` follows the first pressure outlet.
+    /// Pressure the equation of state is relative to \[Pa\]; `None` follows the first pressure outlet, or else the
+    /// outlet models.
     pub reference_pressure: Option<f64>,
     /// Arithmetic of the pair loops.
     pub precision: Precision,

@@ -87,7 +87,8 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         out,
         "pressure {}",
         plan.reference_pressure.map_or_else(
-            || "the first pressure outlet is the reference: its uniform part stays out of the equation of state".to_owned(),
+            || "the first pressure outlet is the reference, or else the common pressure of the outlet models: the uniform part stays \
+             out of the equation of state".to_owned(),
             |p| format!("relative to {p} Pa, as given in the case"),
         )
     );
@@ -129,7 +130,7 @@ fn condition(c: &Condition) -> String {
             format!("resistance {resistance:.4e} Pa s/m3 over {distal_pressure} Pa")
         }
         Condition::Windkessel { model, initial_pressure } => format!(
-            "windkessel Rp {:.4e} Rd {:.4e} Pa s/m3, C {:.4e} m3/Pa over {} Pa, from {initial_pressure} Pa",
+            "windkessel Rp {:.4e} Rd {:.4e} Pa s/m3, C {:.4e} m3/Pa over {} Pa, from {initial_pressure:.0} Pa",
             model.proximal_resistance, model.distal_resistance, model.compliance, model.distal_pressure
         ),
     }
