@@ -13,5 +13,5 @@ pub use error::BoundaryError;
 pub use openings::{BUFFER_LENGTH, Openings};
 pub use outlet::{CoupledState, Coupling, Cycle, Integration, OutletState, Windkessel, mean_split};
 pub use port::{Condition, Counters, Port, PortState, Reading};
-pub use profile::Profile;
+pub use profile::{Inlet, Profile, Section};
 pub use waveform::{Fourier, Interpolation, Signal, Source, Waveform, WaveformError};

@@ -351,7 +351,12 @@ impl Signal {
             Source::Constant(value) => *value,
             Source::Waveform(waveform) => waveform.at(t),
         };
-        if t < self.ramp { full * 0.5 * (1.0 - (PI * t / self.ramp).cos()) } else { full }
+        full * self.risen(t)
+    }
+
+    /// How much of it has risen at `t` \[s\]: from 0 to 1 over the ramp.
+    pub fn risen(&self, t: f64) -> f64 {
+        if t < self.ramp { 0.5 * (1.0 - (PI * t / self.ramp).cos()) } else { 1.0 }
     }
 
     /// Largest magnitude it takes.
