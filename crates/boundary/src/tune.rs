@@ -103,7 +103,7 @@ const ROUNDS: usize = 100;
 pub fn tune(inflow: &Waveform, areas: &[f64], target: &Target) -> Result<Vec<Tuned>, BoundaryError> {
     let Target { systolic, diastolic, distal_pressure, .. } = *target;
     let refuse = |key, value, allowed| Err(BoundaryError::OutOfRange { key, value, allowed });
-    if !(diastolic > distal_pressure) {
+    if diastolic.is_nan() || diastolic <= distal_pressure {
         return refuse("diastolic", diastolic, "more than the distal pressure, in Pa");
     }
     if !(systolic > diastolic && systolic.is_finite()) {
@@ -113,7 +113,7 @@ pub fn tune(inflow: &Waveform, areas: &[f64], target: &Target) -> Result<Vec<Tun
         return refuse("wave_speed", target.wave_speed, "zero or more, in m/s, with a density above zero");
     }
     let mean_flow = inflow.mean();
-    if !(mean_flow > 0.0) {
+    if mean_flow.is_nan() || mean_flow <= 0.0 {
         return refuse("mean inflow", mean_flow, "more than zero, in m^3/s");
     }
     let fractions = target.split.fractions(areas)?;
