@@ -5,8 +5,10 @@
 //! crosses the cap is removed. Both happen at every opening, so flow may reverse.
 
 use crate::openings::Openings;
-use crate::port::Condition;
+use crate::port::Port;
+use crate::profile::Inlet;
 use glam::DVec3;
+use num_complex::Complex64;
 use rayon::prelude::*;
 use vaso_fluid::{CapZone, FluidState, Numbers};
 use vaso_particles::visit;
@@ -15,9 +17,6 @@ use vaso_particles::visit;
 /// particle moving to and fro would be copied at every turn, and none at all while the label is
 /// taken away at the edge.
 const FRINGE: f64 = 0.5;
-/// Bounds of the factor that makes the injected flow the asked one.
-const FLOW_FACTOR: (f64, f64) = (0.8, 1.25);
-
 impl Openings {
     /// Labels the particles in the buffers at the start of a run.
     pub fn start(&mut self, state: &mut FluidState) {
@@ -131,33 +130,46 @@ impl Openings {
                 })
             },
         ));
-        self.shape.clear();
-        let zones = &self.zones;
-        self.shape.par_extend(zones.par_iter().with_min_len(256).map(|zone| {
-            let port = &ports[zone.opening as usize];
-            match &port.condition {
-                Condition::Velocity { profile, .. } => profile
-                    .at(port.opening.project(state.position[zone.particle as usize]), &port.opening.polygon),
-                _ => 0.0,
-            }
-        }));
-        self.scale_flow(state);
+        self.shape_flow(state);
     }
 
-    /// The flow that is injected is that of the labelled particles, `sum u V / L_b`; scale it to the asked one.
-    fn scale_flow(&mut self, state: &FluidState) {
+    /// Takes the profiles at the particles, and scales them: the flow that is injected is that of the labelled particles,
+    /// `sum u V / L_b`.
+    fn shape_flow(&mut self, state: &FluidState) {
+        let (ports, zones) = (&self.ports, &self.zones);
+        let place = |zone: &CapZone| {
+            let port = &ports[zone.opening as usize];
+            let at = port.opening.project(state.position[zone.particle as usize]);
+            port.inlet.as_ref().map(|inlet| (inlet, at))
+        };
+        self.shape.clear();
+        self.shape.par_extend(
+            zones.par_iter().with_min_len(256).map(|z| place(z).map_or(0.0, |(inlet, at)| inlet.steady(at))),
+        );
+        self.waves.clear();
+        for (inlet, at) in zones.iter().filter_map(place) {
+            self.waves.extend(inlet.waves(at));
+        }
         let (length, rest_density) = (self.buffer_length(), self.numbers.rest_density);
-        for (k, port) in self.ports.iter_mut().enumerate() {
-            let Condition::Velocity { .. } = port.condition else { continue };
-            let carried: f64 = self
-                .zones
-                .iter()
-                .zip(&self.shape)
-                .filter(|(zone, _)| state.opening[zone.particle as usize] == k as i32)
-                .map(|(zone, shape)| shape * state.mass[zone.particle as usize] / rest_density)
-                .sum();
-            let factor = if carried > 0.0 { port.opening.area * length / carried } else { 1.0 };
-            port.flow_factor = factor.clamp(FLOW_FACTOR.0, FLOW_FACTOR.1);
+        let n_waves = |port: &Port| port.inlet.as_ref().map_or(0, Inlet::n_waves);
+        let mut carried: Vec<(f64, Vec<Complex64>)> =
+            self.ports.iter().map(|port| (0.0, vec![Complex64::ZERO; n_waves(port)])).collect();
+        let mut waves = self.waves.as_slice();
+        for (zone, shape) in self.zones.iter().zip(&self.shape) {
+            let (steady, sums) = &mut carried[zone.opening as usize];
+            let (own, rest) = waves.split_at(sums.len());
+            waves = rest;
+            let i = zone.particle as usize;
+            if state.opening[i] == zone.opening as i32 {
+                let volume = state.mass[i] / rest_density;
+                *steady += shape * volume;
+                sums.iter_mut().zip(own).for_each(|(sum, wave)| *sum += wave * volume);
+            }
+        }
+        for (port, (steady, waves)) in self.ports.iter_mut().zip(&carried) {
+            if let Some(inlet) = &mut port.inlet {
+                inlet.scale(*steady, waves, port.opening.area * length);
+            }
         }
     }
 }

@@ -3,6 +3,8 @@
 use crate::openings::Openings;
 use crate::outlet::Seen;
 use crate::port::{Condition, Reading};
+use crate::profile::Amplitudes;
+use num_complex::Complex64;
 use vaso_fluid::{Fluid, FluidState, Real};
 
 /// Length of the section inside a velocity buffer over which the pressure is averaged, in
@@ -18,21 +20,24 @@ impl Openings {
     pub fn apply<R: Real>(&mut self, fluid: &mut Fluid<R>, t: f64, dt: f64) -> f64 {
         let reference = self.reference_pressure(t);
         let (rest_density, length) = (self.numbers.rest_density, self.buffer_length());
-        let imposed: Vec<f64> = (0..self.ports.len())
-            .map(|k| match (&self.ports[k].condition, self.pressure_value(k, t)) {
-                (Condition::Velocity { mean, .. }, _) => mean.at(t) * self.ports[k].flow_factor,
-                (_, pressure) => pressure.unwrap_or(0.0) - reference,
-            })
-            .collect();
+        let imposed: Vec<f64> =
+            (0..self.ports.len()).map(|k| self.pressure_value(k, t).unwrap_or(0.0) - reference).collect();
+        let inflow: Vec<Amplitudes> = self.ports.iter().map(|port| port.amplitudes(t)).collect();
+        let mut waves = self.waves.as_slice();
         let mut sums = vec![Sums::default(); self.ports.len()];
         let mut top: f64 = 0.0;
         for (zone, shape) in self.zones.iter().zip(&self.shape) {
             let (i, k) = (zone.particle as usize, zone.opening as usize);
             let port = &self.ports[k];
             let owned = fluid.state.opening[i] == k as i32;
+            let (own_waves, rest) = waves.split_at(inflow[k].waves.len());
+            waves = rest;
             let velocity = match port.condition {
                 // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
-                Condition::Velocity { .. } if owned => Some(-zone.normal * (imposed[k] * shape)),
+                Condition::Velocity { .. } if owned => {
+                    let pulse: Complex64 = own_waves.iter().zip(&inflow[k].waves).map(|(w, a)| w * a).sum();
+                    Some(-zone.normal * (inflow[k].steady * shape + pulse.re))
+                }
                 Condition::Velocity { .. } => None,
                 _ if !zone.in_buffer => None,
                 _ => {

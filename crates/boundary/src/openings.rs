@@ -2,6 +2,8 @@
 
 use crate::outlet::{Coupling, Outlet, OutletState, common_pressure, share_settling};
 use crate::port::{Condition, Counters, Port, PortState};
+use crate::profile::Inlet;
+use num_complex::Complex64;
 use vaso_fluid::{CapZone, Numbers};
 use vaso_geometry::Opening;
 
@@ -32,8 +34,10 @@ pub struct Openings {
     reference: Reference,
     pub(crate) backflow_damping: f64,
     pub(crate) zones: Vec<CapZone>,
-    /// Unit-mean profile value at each zone entry.
+    /// Steady unit-mean profile value at each zone entry.
     pub(crate) shape: Vec<f64>,
+    /// Those of the harmonics, one zone entry after the other where its inlet has any.
+    pub(crate) waves: Vec<Complex64>,
 }
 
 impl Openings {
@@ -51,7 +55,13 @@ impl Openings {
                 let outlet = condition
                     .model()
                     .map(|(model, pressure)| Outlet::new(model, pressure, impedance, transit, opening.area));
-                Port { opening, condition, counters: Counters::default(), outlet, flow_factor: 1.0 }
+                let inlet = match &condition {
+                    Condition::Velocity { profile, mean } => {
+                        Some(Inlet::new(*profile, mean, &opening, numbers))
+                    }
+                    _ => None,
+                };
+                Port { opening, condition, counters: Counters::default(), outlet, inlet }
             })
             .collect();
         share_settling(ports.iter_mut().filter_map(|p| p.outlet.as_mut()));
@@ -71,6 +81,7 @@ impl Openings {
             backflow_damping: BACKFLOW_DAMPING,
             zones: Vec::new(),
             shape: Vec::new(),
+            waves: Vec::new(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::error::BoundaryError;
 use crate::outlet::{CoupledState, Outlet, OutletState, Windkessel};
-use crate::profile::Profile;
+use crate::profile::{Amplitudes, Inlet, Profile};
 use crate::waveform::Signal;
 use serde::{Deserialize, Serialize};
 use vaso_geometry::Opening;
@@ -42,9 +42,12 @@ impl Condition {
     /// Whether what is imposed has a meaning.
     ///
     /// # Errors
-    /// Names the number that has none.
+    /// Names what has none.
     pub fn validate(&self) -> Result<(), BoundaryError> {
-        self.model().map_or(Ok(()), |(model, _)| model.validate())
+        match self {
+            Self::Velocity { profile, mean } => profile.validate(mean),
+            _ => self.model().map_or(Ok(()), |(model, _)| model.validate()),
+        }
     }
 
     /// Whether it sets a pressure, or relates one to the flow.
@@ -90,8 +93,18 @@ pub struct Port {
     pub counters: Counters,
     /// The model behind a resistance or Windkessel.
     pub(crate) outlet: Option<Outlet>,
-    /// Factor on the imposed velocity of this step.
-    pub(crate) flow_factor: f64,
+    /// The profile behind a velocity.
+    pub(crate) inlet: Option<Inlet>,
+}
+
+impl Port {
+    /// How much of each shape of its profile flows in at `t` \[s\]; nothing where it imposes no velocity.
+    pub(crate) fn amplitudes(&self, t: f64) -> Amplitudes {
+        match (&self.condition, &self.inlet) {
+            (Condition::Velocity { mean, .. }, Some(inlet)) => inlet.amplitudes(mean, t),
+            _ => Amplitudes::default(),
+        }
+    }
 }
 
 /// What an opening carries from step to step, to be kept in a checkpoint.
