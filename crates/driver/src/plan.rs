@@ -179,8 +179,9 @@ fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Drive
         };
         let profile = |p: vaso_scene::Profile| match p {
             vaso_scene::Profile::Plug => Profile::Plug,
-            // `supported::check` has refused the rest.
-            _ => Profile::Parabolic,
+            vaso_scene::Profile::Parabolic => Profile::Parabolic,
+            vaso_scene::Profile::FullyDeveloped => Profile::FullyDeveloped,
+            vaso_scene::Profile::Womersley => Profile::Womersley,
         };
         let condition = match &spec.condition {
             vaso_scene::Condition::Velocity { profile: p, value } => {

@@ -124,6 +124,7 @@ fn condition(c: &Condition) -> String {
             format!("velocity {}, {:?} profile, ramp {} ms", signal(mean, "m/s"), profile, 1e3 * mean.ramp)
                 .replace("Plug", "plug")
                 .replace("Parabolic", "parabolic")
+                .replace("FullyDeveloped", "fully developed")
         }
         Condition::Pressure { value } => format!("pressure {}", signal(value, "Pa")),
         Condition::Resistance { resistance, distal_pressure } => {

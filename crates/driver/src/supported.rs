@@ -9,7 +9,7 @@ use vaso_fluid::Rheology;
 use vaso_generation::Ends;
 use vaso_io::EffectEntry;
 use vaso_scene::material::Viscosity;
-use vaso_scene::{Blood, Condition as Asked, Field, Profile, Scene, Wall, Word};
+use vaso_scene::{Blood, Field, Scene, Wall, Word};
 
 /// Refuses, all at once, what a case asks for and this version does not have.
 ///
@@ -44,17 +44,6 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     } else if !matches!(ends, Ends::Collar { .. }) {
         let seen = if matches!(ends, Ends::Boxes) { "boxes" } else { "closest-cap" };
         refuse("wall.open_ends".into(), seen, "\"collar\"");
-    }
-    for opening in &scene.openings {
-        let key = |field: &str| format!("opening.{}.{field}", opening.name);
-        match &opening.condition {
-            Asked::Velocity { profile, .. } | Asked::Flow { profile, .. } => {
-                if *profile == Profile::Womersley {
-                    refuse(key("profile"), "womersley", "\"plug\", \"parabolic\"");
-                }
-            }
-            Asked::Pressure { .. } | Asked::Resistance { .. } | Asked::Windkessel { .. } => {}
-        }
     }
     for field in &scene.output.fields {
         if !matches!(field, Field::Velocity | Field::Pressure | Field::Density) {

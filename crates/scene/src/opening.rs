@@ -99,8 +99,10 @@ words! {
     pub enum Profile {
         /// The same everywhere.
         Plug = "plug",
-        /// Fully developed steady flow.
+        /// Fully developed steady flow through a disc, stretched to the rim.
         Parabolic = "parabolic",
+        /// Fully developed steady flow through a section of the shape of the opening.
+        FullyDeveloped = "fully-developed",
         /// Fully developed pulsatile flow (Womersley 1955), harmonic by harmonic of a periodic waveform.
         Womersley = "womersley",
     }
