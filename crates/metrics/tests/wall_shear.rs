@@ -69,18 +69,18 @@ fn noise_of_the_particles_stays_in_bounds() {
 
 #[test]
 fn womersley_within_seven_per_cent() {
-    for alpha in [4.0, 8.0] {
-        let flow = Womersley { alpha };
-        // Shear amplitudes over G R of the published table: 0.2306 and 0.1196.
-        let published = if alpha == 4.0 { 0.2306 } else { 0.1196 };
-        assert!((flow.stress().abs() / published - 1.0).abs() < 1e-3);
-        for across in [8.0, 12.0, 16.0, 20.0, 24.0] {
-            let spacing = 2.0 * RADIUS / across;
-            for (name, particles) in sets(spacing) {
+    for across in [8.0, 12.0, 16.0, 20.0, 24.0] {
+        let spacing = 2.0 * RADIUS / across;
+        for (name, particles) in sets(spacing) {
+            // Shear amplitudes over G R of the published table.
+            for (alpha, published) in [(4.0, 0.2306), (8.0, 0.1196)] {
+                let flow = Womersley { alpha };
+                assert!((flow.stress().abs() / published - 1.0).abs() < 1e-3);
                 let mut mean = Complex(0.0, 0.0);
                 let mut square = 0.0;
                 let exact = flow.stress();
-                for k in 0..4 {
+                // Two phases a quarter apart say all of a linear estimator.
+                for k in 0..2 {
                     let phase = TAU * f64::from(k) / 4.0;
                     let sample = in_pipe(
                         spacing,
@@ -90,9 +90,9 @@ fn womersley_within_seven_per_cent() {
                     );
                     let now = exact.times(Complex::polar(1.0, phase)).0;
                     let (bias, rms) = deviation(&sample.stress, |_| now * DVec3::Z, exact.abs());
-                    let turned = Complex::polar(0.5 * (bias.z + now / exact.abs()), -phase);
+                    let turned = Complex::polar((bias.z + now / exact.abs()), -phase);
                     mean = Complex(mean.0 + turned.0, mean.1 + turned.1);
-                    square += 0.25 * rms * rms;
+                    square += rms * rms;
                 }
                 let ratio = mean.over(exact.scaled(exact.abs().recip()));
                 let (amplitude, angle) = (ratio.abs() - 1.0, ratio.1.atan2(ratio.0).to_degrees());

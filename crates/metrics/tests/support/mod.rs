@@ -111,7 +111,7 @@ pub(crate) fn bessel(order: u32, z: Complex) -> Complex {
     let quarter = z.times(z).scaled(-0.25);
     let mut term = if order == 0 { Complex(1.0, 0.0) } else { z.scaled(0.5) };
     let mut sum = term;
-    for k in 1..60 {
+    for k in 1..40 {
         term = term.times(quarter).scaled(1.0 / (f64::from(k) * f64::from(k + order)));
         sum = Complex(sum.0 + term.0, sum.1 + term.1);
     }
