@@ -22,6 +22,14 @@ pub enum MetricsError {
         /// Values needed.
         expected: usize,
     },
+    /// An opening is asked for that does not exist.
+    #[error("no opening is named \"{name}\"; there are \"{known}\"")]
+    UnknownOpening {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: String,
+    },
 }
 
 impl MetricsError {
