@@ -1,0 +1,185 @@
+//! The velocity gradient at one point of the wall, by constrained moving least squares.
+
+use crate::wall::near::NearParticle;
+use glam::DVec3;
+
+/// Functions of the fit: s, s^2, s xi, s eta.
+const TERMS: usize = 4;
+/// Weight of the curvature and of the tangential terms in the sum that is made smallest: small enough not to be felt where
+/// particles determine them, large enough to make them zero where none do.
+const RIDGE: f64 = 1e-6;
+/// Fewest particles for a value.
+pub(crate) const FEWEST: usize = 8;
+/// Smallest cosine between the normals under a particle and at the point for both to be of one sheet of the wall.
+const SAME_SHEET: f64 = 0.5;
+/// Depth \[spacings\] by which the nearest particle must be found: beyond it the gradient would be extrapolated.
+const SHALLOWEST: f64 = 1.5;
+/// Largest error of the fitted gradient \[1/spacing\] for an error of one in all velocities. A wall with its full half sphere
+/// of particles has about 1; half of that at a rim, 1.5.
+const MAX_NOISE: f64 = 5.0;
+
+/// A point of the wall, with what the fit needs of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FitPoint {
+    /// Position \[m\].
+    pub(crate) position: DVec3,
+    /// Unit normal out of the lumen.
+    pub(crate) normal: DVec3,
+    /// Spacing of the particles \[m\].
+    pub(crate) spacing: f64,
+}
+
+/// Sums over the particles about a point of the wall.
+///
+/// Fitted is `v = a s + b s^2 + s (c xi + d eta)`, so that v is zero on the wall: s is the distance from the wall and xi, eta
+/// the tangential coordinates of the nearest point of the wall. A curved wall then looks flat, and the parabola of a pipe
+/// flow is met exactly.
+pub(crate) struct Fit {
+    point: FitPoint,
+    tangent: [DVec3; 2],
+    matrix: [[f64; TERMS]; TERMS],
+    velocity: [DVec3; TERMS],
+    /// First moments over the depth, and those of a number a particle, for [`Fit::at_wall`].
+    line: [f64; 5],
+    range: (f64, f64),
+    n: usize,
+    shallowest: f64,
+}
+
+impl Fit {
+    pub(crate) fn new(point: FitPoint) -> Self {
+        let first = point.normal.any_orthonormal_vector();
+        Self {
+            point,
+            tangent: [first, point.normal.cross(first)],
+            matrix: [[0.0; TERMS]; TERMS],
+            velocity: [DVec3::ZERO; TERMS],
+            line: [0.0; 5],
+            range: (f64::INFINITY, f64::NEG_INFINITY),
+            n: 0,
+            shallowest: f64::INFINITY,
+        }
+    }
+
+    /// Weight of a particle within `support` \[m\] and the basis there \[in spacings\]; `None` where it is too far or near
+    /// another sheet of the wall.
+    #[inline]
+    fn basis(&self, particle: &NearParticle, support: f64) -> Option<(f64, [f64; TERMS])> {
+        let squared = particle.position.distance_squared(self.point.position);
+        if squared >= support * support || particle.normal.dot(self.point.normal) < SAME_SHEET {
+            return None;
+        }
+        // Foot of the particle: without it a wall seen slantwise would be mistaken for a deeper one.
+        let foot = particle.position + particle.depth * particle.normal - self.point.position;
+        let u = 1.0 - squared.sqrt() / support;
+        let (scale, square) = (self.point.spacing.recip(), u * u);
+        let s = scale * particle.depth;
+        let [xi, eta] = self.tangent.map(|t| scale * foot.dot(t));
+        Some((square * square * (5.0 - 4.0 * u), [s, s * s, s * xi, s * eta]))
+    }
+
+    /// Adds a particle within `support` \[m\]; `carried` gives the velocity \[m/s\] the wall would give the fluid at an offset \[m\]
+    /// from the point, `value` is a number of the particle to be continued to the wall.
+    #[inline]
+    pub(crate) fn add(
+        &mut self,
+        particle: &NearParticle,
+        support: f64,
+        carried: impl Fn(DVec3) -> DVec3,
+        value: f64,
+    ) {
+        let Some((weight, f)) = self.basis(particle, support) else { return };
+        let relative = particle.velocity - carried(particle.position - self.point.position);
+        // Turned with the normal, so that a flow that follows the bend of the wall counts as straight. What is left of the
+        // normal component lies along the normal and is taken away at the end.
+        let both = particle.normal + self.point.normal;
+        let turned = relative - 2.0 * both.dot(relative) / both.length_squared() * both;
+        for k in 0..TERMS {
+            let w = weight * f[k];
+            for l in 0..=k {
+                self.matrix[k][l] += w * f[l];
+            }
+            self.velocity[k] += w * turned;
+        }
+        let s = f[0];
+        for (sum, term) in self.line.iter_mut().zip([1.0, s, s * s, value, s * value]) {
+            *sum += weight * term;
+        }
+        self.range = (self.range.0.min(value), self.range.1.max(value));
+        self.n += 1;
+        self.shallowest = self.shallowest.min(s);
+    }
+
+    /// Derivative of the tangential velocity with the distance from the wall, at the wall \[1/s\]; `None` where the
+    /// particles do not determine it.
+    pub(crate) fn shear(&self) -> Option<DVec3> {
+        if self.n < FEWEST || self.shallowest > SHALLOWEST {
+            return None;
+        }
+        let mut matrix = self.matrix;
+        for k in 1..TERMS {
+            matrix[k][k] += RIDGE * self.matrix[0][0];
+        }
+        let row = first_row_of_inverse(matrix)?;
+        // With weights below one this bounds the sum of squares of the factors of all velocities.
+        if row[0] > MAX_NOISE * MAX_NOISE {
+            return None;
+        }
+        let gradient: DVec3 = row.iter().zip(self.velocity).map(|(share, sum)| *share * sum).sum();
+        let normal = self.point.normal;
+        Some((gradient - gradient.dot(normal) * normal) / self.point.spacing)
+    }
+
+    /// The number of the particles continued linearly to the wall, within the range it has among them.
+    pub(crate) fn at_wall(&self) -> f64 {
+        let [w, s, ss, v, sv] = self.line;
+        let determinant = w * ss - s * s;
+        let value = if determinant > 1e-6 * w * ss { (ss * v - s * sv) / determinant } else { v / w };
+        value.clamp(self.range.0, self.range.1)
+    }
+}
+
+/// First row of the inverse of a symmetric matrix given by its lower half, by Cholesky; `None` where it has none.
+fn first_row_of_inverse(matrix: [[f64; TERMS]; TERMS]) -> Option<[f64; TERMS]> {
+    let mut l = [[0.0; TERMS]; TERMS];
+    for i in 0..TERMS {
+        for j in 0..=i {
+            let rest = matrix[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+            if i == j {
+                if rest <= 1e-12 * matrix[i][i] || rest <= 0.0 {
+                    return None;
+                }
+                l[i][i] = rest.sqrt();
+            } else {
+                l[i][j] = rest / l[j][j];
+            }
+        }
+    }
+    let mut row = [0.0; TERMS];
+    for i in 0..TERMS {
+        let unit = if i == 0 { 1.0 } else { 0.0 };
+        row[i] = (unit - (0..i).map(|k| l[i][k] * row[k]).sum::<f64>()) / l[i][i];
+    }
+    for i in (0..TERMS).rev() {
+        row[i] = (row[i] - (i + 1..TERMS).map(|k| l[k][i] * row[k]).sum::<f64>()) / l[i][i];
+    }
+    Some(row)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_row_solves_the_system() {
+        let matrix =
+            [[4.0, 0.0, 0.0, 0.0], [1.0, 3.0, 0.0, 0.0], [0.5, -0.2, 2.0, 0.0], [0.1, 0.3, -0.4, 1.5]];
+        let row = first_row_of_inverse(matrix).expect("diagonally dominant");
+        for i in 0..TERMS {
+            let full = |j: usize| if j <= i { matrix[i][j] } else { matrix[j][i] };
+            let product: f64 = (0..TERMS).map(|j| full(j) * row[j]).sum();
+            assert!((product - if i == 0 { 1.0 } else { 0.0 }).abs() < 1e-14);
+        }
+        assert_eq!(first_row_of_inverse([[1.0; TERMS]; TERMS]), None);
+    }
+}

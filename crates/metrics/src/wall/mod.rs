@@ -1,0 +1,17 @@
+//! Wall shear stress at points of the vessel surface, and its indices over a cycle.
+
+mod cycles;
+mod fit;
+mod indices;
+mod integral;
+mod mesh;
+mod near;
+mod shear;
+mod viscosity;
+
+pub use cycles::ShearCycles;
+pub use indices::{LARGEST_INVERSE, PointIndices, SHEAR_DEFINITIONS, ShearCycle};
+pub use mesh::WallMesh;
+pub use near::NearWallDistance;
+pub use shear::{ShearSample, WallMotion, WallShear};
+pub use viscosity::Viscosity;
