@@ -1,6 +1,6 @@
 //! All openings of a run, and the pressure level they set.
 
-use crate::outlet::{Coupling, Outlet, OutletState, common_pressure, share_settling};
+use crate::outlet::{Coupling, Outlet, OutletState, common_pressure};
 use crate::port::{Condition, Counters, Port, PortState};
 use crate::profile::Inlet;
 use num_complex::Complex64;
@@ -48,7 +48,7 @@ impl Openings {
     pub fn new(ports: Vec<(Opening, Condition)>, numbers: &Numbers, reference_pressure: Option<f64>) -> Self {
         let length = BUFFER_LENGTH * numbers.spacing;
         let transit = length / numbers.sound_speed;
-        let mut ports: Vec<Port> = ports
+        let ports: Vec<Port> = ports
             .into_iter()
             .map(|(opening, condition)| {
                 let impedance = numbers.rest_density * numbers.sound_speed / opening.area;
@@ -64,7 +64,6 @@ impl Openings {
                 Port { opening, condition, counters: Counters::default(), outlet, inlet }
             })
             .collect();
-        share_settling(ports.iter_mut().filter_map(|p| p.outlet.as_mut()));
         let fixed_value = ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }));
         let reference = match (reference_pressure, fixed_value) {
             (Some(pressure), _) => Reference::Fixed(pressure),

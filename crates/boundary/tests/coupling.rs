@@ -3,7 +3,10 @@
 mod support;
 
 use support::{RADIUS, Run, numbers};
-use vaso_boundary::{Condition, Openings, Profile, Signal, Source, Windkessel};
+use vaso_boundary::{
+    Condition, Integration, Interpolation, Openings, OutletState, Profile, Signal, Source, Waveform,
+    Windkessel,
+};
 
 /// Mean velocity \[m/s\].
 const SPEED: f64 = 0.2;
@@ -125,4 +128,43 @@ fn a_restored_run_goes_on_alike() {
     assert_eq!(fresh.states(), before.states());
     assert_eq!(fresh.reference_pressure(0.0), before.reference_pressure(0.0));
     assert_eq!(fresh.next_id(), before.next_id());
+}
+
+/// A beat into a Windkessel that starts on its periodic cycle, against the model alone under the asked flow, ten spacings
+/// across. What is left is the noise of the flow at the cap, and the layer of particles that has not yet come through.
+#[test]
+fn a_windkessel_follows_its_exact_pressure_over_a_beat() {
+    let period = 0.15;
+    let time: Vec<f64> = (0..25).map(|k| period * f64::from(k) / 25.0).collect();
+    let beat = |t: f64| 0.15 + 0.15 * (std::f64::consts::TAU * t / period).sin();
+    let value = time.iter().map(|&t| beat(t)).collect();
+    let wave = Waveform::new(time, value, Some(period)).expect("valid");
+    let wave = wave.interpolated(Interpolation::Fourier { harmonics: 4 }).expect("possible");
+    let model = Windkessel {
+        proximal_resistance: 0.3 * acoustic_impedance(),
+        compliance: 0.1 / acoustic_impedance(),
+        distal_resistance: 2.0 * acoustic_impedance(),
+        distal_pressure: 0.0,
+    };
+    let cycle = model.periodic(&wave.scaled(area())).expect("periodic");
+    let mean = Signal { source: Source::Waveform(wave), ramp: 0.02 };
+    let inlet = Condition::Velocity { profile: Profile::Womersley, mean: mean.clone() };
+    let outlet = Condition::Windkessel { model, initial_pressure: cycle.start.stored_pressure };
+    let mut run = Run::new(numbers(2.0 * 0.3), [inlet, outlet], None);
+    let mut exact = OutletState::at_rest(cycle.start.stored_pressure);
+    let (mut squares, mut n, mut taken_up) = (0.0, 0.0, 0.0);
+    while run.time < period {
+        let before = run.time;
+        run.step();
+        let duration = run.time - before;
+        exact = model.advance(&exact, area() * mean.at(run.time), duration, Integration::Exponential);
+        let reading = run.openings.measure(&run.fluid.state, run.time)[1];
+        squares += (reading.pressure - exact.pressure).powi(2);
+        taken_up += reading.outlet.expect("an outlet model").flow * duration;
+        n += 1.0;
+    }
+    let rms = f64::sqrt(squares / n) / (cycle.systolic - cycle.diastolic);
+    assert!(rms < 0.03, "{rms} of the pulse");
+    let left = run.openings.ports()[1].counters.outflow_volume;
+    assert!((taken_up / left - 1.0).abs() < 0.01, "the model took up {taken_up} of {left} m^3");
 }

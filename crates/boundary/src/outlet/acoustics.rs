@@ -1,6 +1,6 @@
 //! Coupled outlets on lines that only carry sound: what an explicit coupling has to survive.
 
-use super::coupling::{Outlet, Seen, common_pressure, share_settling};
+use super::coupling::{Outlet, Seen, common_pressure};
 use super::{Coupling, Integration, Windkessel};
 
 const RHO: f64 = 1060.0;
@@ -126,7 +126,6 @@ fn outlets_relative_to_their_common_pressure_come_to_rest() {
             // Each over the impedance of its half of the section.
             let models = [0.5, 1.0].map(|r| Windkessel::resistance(r * 2.0 * ratio * Z, 0.0));
             let mut two = models.map(|m| outlet(m, AREA / 2.0));
-            share_settling(two.iter_mut());
             let late = run(&mut two, cells, 400, false, 1e-4);
             for (one, model) in late.iter().zip(&models) {
                 let pressure = one.pressure / (model.proximal_resistance * one.flow);

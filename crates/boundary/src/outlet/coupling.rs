@@ -146,20 +146,11 @@ impl Outlet {
     }
 }
 
-/// Gives all outlets the settling time of the slowest, which [`common_pressure`] relies on.
-pub(crate) fn share_settling<'a>(outlets: impl Iterator<Item = &'a mut Outlet>) {
-    let outlets: Vec<&mut Outlet> = outlets.collect();
-    let slowest = outlets.iter().map(|o| o.settling).fold(0.0, f64::max);
-    for outlet in outlets {
-        outlet.settling = slowest;
-    }
-}
-
 /// Mean pressure of outlets, weighted by what they let through \[Pa\].
 ///
 /// Taken as the level of the fluid's pressure it leaves only the differences between outlets in the fluid. With weights 1/R
-/// these differences still take energy out for any flows, `sum R_k Q_k^2 >= (sum Q_k)^2 / sum 1/R_k`, as long as all outlets
-/// settle alike. Other weights feed the sound that runs between them.
+/// these take energy out for any flows, `sum R_k Q_k^2 >= (sum Q_k)^2 / sum 1/R_k`. Other weights can feed the sound that
+/// runs between outlets.
 pub(crate) fn common_pressure<'a>(outlets: impl Iterator<Item = &'a Outlet> + Clone) -> f64 {
     let impedance = |outlet: &Outlet| outlet.model.impedance(outlet.settling);
     let largest = outlets.clone().map(impedance).fold(0.0, f64::max);
