@@ -45,7 +45,7 @@ fn poiseuille_is_exact() {
 }
 
 /// Velocity errors of 1 % of the peak, each particle by itself, become an error of the gradient of at most 1.5 of them a
-/// spacing in each tangential direction: what `fit::MAX_NOISE` says of a full half sphere.
+/// spacing in each tangential direction: what is said at `MAX_NOISE` in `fit.rs`.
 #[test]
 fn noise_of_the_particles_stays_in_bounds() {
     let spacing = RADIUS / 10.0;

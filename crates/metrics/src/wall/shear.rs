@@ -72,9 +72,10 @@ impl WallShear {
         &self.normal
     }
 
-    /// Distance from the wall up to which particles matter \[m\].
+    /// Distance from the wall up to which distances had better be exact \[m\]: that of all particles a fit uses, unless they
+    /// are few.
     pub fn reach(&self) -> f64 {
-        WIDE_SUPPORT * self.spacing
+        SUPPORT * self.spacing
     }
 
     /// Wall shear stress of fluid particles at `position` \[m\] with `velocity` \[m/s\] along a wall at rest.
