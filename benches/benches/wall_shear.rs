@@ -6,7 +6,8 @@
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec3;
 use std::hint::black_box;
-use vaso_metrics::{ShearCycles, Viscosity, WallShear};
+use vaso_geometry::{DistanceGrid, LengthUnit, SignedDistance, prepare, shapes};
+use vaso_metrics::{NearWallDistance, ShearCycles, Viscosity, WallShear};
 use vaso_particles::WallDistance;
 
 /// Spacings across the pipe.
@@ -21,6 +22,15 @@ impl WallDistance for Pipe {
     fn sample(&self, x: DVec3) -> (f64, DVec3) {
         let r = x.with_z(0.0);
         (r.length() - 0.5 * ACROSS, r.normalize_or_zero())
+    }
+}
+
+/// Interpolated distance, as the fluid of a run has it.
+struct Coarse(DistanceGrid);
+
+impl WallDistance for Coarse {
+    fn sample(&self, x: DVec3) -> (f64, DVec3) {
+        self.0.sample(x)
     }
 }
 
@@ -68,6 +78,17 @@ fn benches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("wall-shear");
     group.throughput(Throughput::Elements(normal.len() as u64));
     group.bench_function("constant", |b| b.iter(|| evaluate(Viscosity::Constant(3.5e-3))));
+    let pipe = shapes::pipe(0.5 * ACROSS, LENGTH, DVec3::Z, 96);
+    let vessel = prepare(pipe, Some(LengthUnit::Metre)).expect("a pipe");
+    let exact = SignedDistance::wall(&vessel);
+    let coarse = Coarse(DistanceGrid::build(&exact, vessel.surface.bounds(), 1.0, 5.0));
+    let distance = NearWallDistance { coarse: &coarse, exact: &exact, reach: wall.reach() };
+    group.bench_function("on-triangles", |b| {
+        b.iter(|| {
+            wall.evaluate(black_box(&particles), &velocity, &distance, Viscosity::Constant(3.5e-3))
+                .expect("equal lengths")
+        });
+    });
     let law = |rate: f64| 3.5e-3 + 0.05 * (1.0 + rate * rate).powf(-0.4);
     group.bench_function("by-shear-rate", |b| b.iter(|| evaluate(Viscosity::ShearRate(&law))));
 

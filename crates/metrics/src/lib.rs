@@ -15,5 +15,5 @@ pub use openings::{
 };
 pub use wall::{
     LARGEST_INVERSE, NearWallDistance, PointIndices, SHEAR_DEFINITIONS, ShearCycle, ShearCycles, ShearSample,
-    Viscosity, WallMesh, WallMotion, WallShear,
+    ShearWindow, Viscosity, WallMesh, WallMotion, WallShear,
 };

@@ -1,10 +1,13 @@
 //! The wall of a vessel as a mesh fine enough to show what the particles see.
 
 use glam::DVec3;
-use vaso_geometry::{SmoothNormals, Vessel};
+use rayon::prelude::*;
+use vaso_geometry::{Rim, SmoothNormals, Vessel};
 
 /// Longest edge of the mesh \[spacings\]. Finer it would show nothing more; coarser it would miss what particles resolve.
 const LONGEST_EDGE: f64 = 1.5;
+/// Distance from a rim up to which it is told \[spacings\]: longer than any buffer.
+const RIM_REACH: f64 = 10.0;
 /// Rounds of splitting, each of which halves every edge that is too long.
 const MOST_ROUNDS: usize = 16;
 
@@ -17,6 +20,9 @@ pub struct WallMesh {
     pub normal: Vec<DVec3>,
     /// Area each point stands for: a third of its triangles \[m^2\].
     pub area: Vec<f64>,
+    /// Distance of each point from the nearest rim of an opening, at most ten spacings \[m\]. Within a buffer, of four spacings,
+    /// stresses are those of a flow that is imposed.
+    pub rim_distance: Vec<f64>,
     /// Point numbers of each triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -30,8 +36,13 @@ impl WallMesh {
         let is_wall = |t: usize| vessel.face_opening[t].is_none();
         let normals = SmoothNormals::new(surface, is_wall);
         let mut number = vec![u32::MAX; surface.vertices.len()];
-        let mut mesh =
-            Self { position: Vec::new(), normal: Vec::new(), area: Vec::new(), triangles: Vec::new() };
+        let mut mesh = Self {
+            position: Vec::new(),
+            normal: Vec::new(),
+            area: Vec::new(),
+            rim_distance: Vec::new(),
+            triangles: Vec::new(),
+        };
         for t in (0..surface.triangles.len()).filter(|&t| is_wall(t)) {
             let corners = surface.triangles[t].map(|v| {
                 let number = &mut number[v as usize];
@@ -51,6 +62,11 @@ impl WallMesh {
             }
         }
         mesh.area = mesh.areas();
+        let (rim, reach) = (Rim::new(vessel), RIM_REACH * spacing);
+        mesh.rim_distance = (&mesh.position[..], &mesh.normal[..])
+            .into_par_iter()
+            .map(|(x, normal)| rim.query(*x, *normal, reach).map_or(reach, |nearest| nearest.distance))
+            .collect();
         mesh
     }
 
@@ -151,6 +167,12 @@ mod tests {
         assert!(longest <= 1.5 * spacing && longest > 0.75 * spacing, "{longest}");
         assert!((mesh.area.iter().sum::<f64>() / vessel.wall_area() - 1.0).abs() < 1e-12);
         assert!(mesh.normal.iter().all(|n| (n.length() - 1.0).abs() < 1e-12));
+        let axis = DVec3::new(1.0, 2.0, 3.0).normalize();
+        for (x, rim) in mesh.position.iter().zip(&mesh.rim_distance) {
+            let z = x.dot(axis);
+            let exact = z.min(8e-3 - z).min(10.0 * spacing);
+            assert!((rim - exact).abs() < 1e-6, "{rim} at {z}");
+        }
     }
 
     /// A closed border and no hole inside: each edge has two triangles, but for those at the two rims.

@@ -8,6 +8,7 @@ mod mesh;
 mod near;
 mod shear;
 mod viscosity;
+mod window;
 
 pub use cycles::ShearCycles;
 pub use indices::{LARGEST_INVERSE, PointIndices, SHEAR_DEFINITIONS, ShearCycle};
@@ -15,3 +16,4 @@ pub use mesh::WallMesh;
 pub use near::NearWallDistance;
 pub use shear::{ShearSample, WallMotion, WallShear};
 pub use viscosity::Viscosity;
+pub use window::ShearWindow;

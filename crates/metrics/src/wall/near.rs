@@ -48,6 +48,8 @@ pub(crate) struct NearParticle {
 /// The particles within reach of the wall, in the order of a cell grid.
 pub(crate) struct NearWall {
     grid: CellGrid,
+    /// Positions by themselves, as most are looked at and passed over.
+    position: Vec<DVec3>,
     particle: Vec<NearParticle>,
 }
 
@@ -80,11 +82,18 @@ impl NearWall {
         let mut order = Vec::new();
         let places: Vec<DVec3> = unsorted.iter().map(|p| p.position).collect();
         grid.sort(&places, &mut order);
-        Self { grid, particle: order.iter().map(|&old| unsorted[old as usize]).collect() }
+        let particle: Vec<NearParticle> = order.iter().map(|&old| unsorted[old as usize]).collect();
+        Self { grid, position: particle.iter().map(|p| p.position).collect(), particle }
     }
 
-    /// Particles in the cells around `x`; among them all within the reach.
-    pub(crate) fn around(&self, x: DVec3) -> impl Iterator<Item = &NearParticle> {
-        self.grid.runs(x).into_iter().flat_map(|(begin, end)| &self.particle[begin..end])
+    /// Particles nearer to `x` than `support` \[m\], which must not exceed the reach, each with its squared distance \[m^2\].
+    #[inline]
+    pub(crate) fn within(&self, x: DVec3, support: f64) -> impl Iterator<Item = (&NearParticle, f64)> {
+        let runs = self.grid.runs(x).into_iter();
+        runs.flat_map(|(begin, end)| self.position[begin..end].iter().zip(&self.particle[begin..end]))
+            .filter_map(move |(position, particle)| {
+                let squared = position.distance_squared(x);
+                (squared < support * support).then_some((particle, squared))
+            })
     }
 }

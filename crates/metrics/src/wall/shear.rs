@@ -1,7 +1,7 @@
 //! Wall shear stress at all points of a wall.
 
 use crate::error::MetricsError;
-use crate::wall::fit::{Fit, FitPoint};
+use crate::wall::fit::{Fit, FitPoint, Line};
 use crate::wall::near::NearWall;
 use crate::wall::viscosity::Viscosity;
 use glam::{DMat3, DVec3};
@@ -72,9 +72,10 @@ impl WallShear {
         &self.normal
     }
 
-    /// Distance from the wall up to which particles matter \[m\].
+    /// Distance from the wall up to which distances had better be exact \[m\]: that of all particles a fit uses, unless they
+    /// are few.
     pub fn reach(&self) -> f64 {
-        WIDE_SUPPORT * self.spacing
+        SUPPORT * self.spacing
     }
 
     /// Wall shear stress of fluid particles at `position` \[m\] with `velocity` \[m/s\] along a wall at rest.
@@ -166,12 +167,13 @@ impl WallShear {
         let (wall_velocity, wall_gradient) = motion
             .map_or((DVec3::ZERO, DMat3::ZERO), |m| (m.velocity[k], without_shear(m.gradient[k], normal)));
         let mut fit = Fit::new(FitPoint { position: x, normal, spacing: self.spacing });
-        for particle in near.around(x) {
-            let value = match viscosity {
-                Viscosity::PerParticle(values) => values[particle.number as usize],
-                Viscosity::Constant(_) | Viscosity::ShearRate(_) => 0.0,
-            };
-            fit.add(particle, support, |offset| wall_velocity + wall_gradient * offset, value);
+        let mut line = Line::new();
+        for (particle, squared) in near.within(x, support) {
+            let carried = wall_velocity + wall_gradient * (particle.position - x);
+            let counted = fit.add(particle, squared, support, carried);
+            if let (Viscosity::PerParticle(values), Some(place)) = (viscosity, counted) {
+                line.add(place, values[particle.number as usize]);
+            }
         }
         let shear = fit.shear()?;
         let mu = match viscosity {
@@ -181,7 +183,7 @@ impl WallShear {
                 // D:D = |grad v + grad v^T|^2 / 4
                 law((0.5 * squared_norm(gradient + gradient.transpose())).sqrt())
             }
-            Viscosity::PerParticle(_) => fit.at_wall(),
+            Viscosity::PerParticle(_) => line.at_wall(),
         };
         Some(mu * shear)
     }
