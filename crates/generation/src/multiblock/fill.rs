@@ -9,6 +9,8 @@ use vaso_geometry::{BranchEnd, Centerlines, Curve, Opening, Vessel};
 
 /// Distances from the carina, in distances from the wall, at which blocks start at a junction without.
 const CLEAR: f64 = 1.0;
+/// Lengths a limb may take to unfold that are tried one after the other, in usual ones.
+const EASES: [f64; 4] = [1.0, 1.3, 0.8, 1.7];
 /// Fewest layers worth a block.
 const FEWEST: usize = 2;
 
@@ -31,6 +33,12 @@ pub(super) struct Filling {
 impl Filling {
     pub(super) fn layers(&self) -> impl Iterator<Item = &Layer> {
         self.stretches.iter().flat_map(|s| &s.layers)
+    }
+
+    /// Length along the route up to which its layers are sound without a gap \[m\].
+    fn reach(&self) -> f64 {
+        let sound = self.layers().filter(|l| l.is_sound);
+        sound.fold(0.0, |reached, layer| if layer.arc[0] <= reached { layer.arc[1] } else { reached })
     }
 
     pub(super) fn layers_mut(&mut self) -> impl Iterator<Item = &mut Layer> {
@@ -121,21 +129,20 @@ impl<'a> Work<'a> {
     /// Limbs that fill a junction, or why they do not.
     fn blocked(&mut self, number: usize, outward: &[Outward; 3]) -> Result<Vec<(Limb<'a>, Filling)>, String> {
         let curves = outward.each_ref().map(|o| &o.curve);
-        let starts = junction::starts(&self.lines.junctions[number], curves, self.maker.wall)?;
+        let meeting = junction::meeting(&self.lines.junctions[number], curves, self.maker.wall)?;
         let mut filled = Vec::with_capacity(3);
-        for (start, outward) in starts.iter().zip(outward) {
-            let limb = self.limb(outward, &start.curve, Some(start.hinge), 0.0);
-            let filling = self.fill_limb(&limb);
-            let mut reached = 0.0;
-            for layer in filling.layers().filter(|l| l.is_sound) {
-                if layer.arc[0] <= reached {
-                    reached = layer.arc[1];
+        for (k, outward) in outward.iter().enumerate() {
+            let mut sound = None;
+            for ease in EASES {
+                let start = meeting.start(k, ease)?;
+                let limb = self.limb(outward, &start.curve, Some(start.hinge), 0.0);
+                let filling = self.fill_limb(&limb);
+                if filling.reach() >= start.hinge.length {
+                    sound = Some((limb, filling));
+                    break;
                 }
             }
-            if reached < start.hinge.length {
-                return Err("its sections cross or its cells turn over".into());
-            }
-            filled.push((limb, filling));
+            filled.push(sound.ok_or("its sections cross or its cells turn over")?);
         }
         Ok(filled)
     }

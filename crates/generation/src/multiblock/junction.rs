@@ -72,14 +72,24 @@ fn half_area(wall: &SignedDistance, center: DVec3, axis: DVec3, side: DVec3, rea
         .sum()
 }
 
-/// Starts of the limbs of a junction, parent first, each from the junction outwards; or why there are none.
+/// A junction whose three limbs have a wedge each.
+pub(super) struct Meeting<'a> {
+    joint: Joint,
+    /// Centrelines of the limbs from the junction outwards, parent first.
+    limbs: [&'a Curve; 3],
+    /// Angles about the hinge between which each lies.
+    bounds: [[f64; 2]; 3],
+    wall: &'a SignedDistance,
+}
+
+/// The half planes between the limbs of a junction, or why there are none.
 ///
-/// `limbs` are the centrelines from the junction outwards.
-pub(super) fn starts(
+/// `limbs` are the centrelines from the junction outwards, parent first.
+pub(super) fn meeting<'a>(
     junction: &Junction,
-    limbs: [&Curve; 3],
-    wall: &SignedDistance,
-) -> Result<[Start; 3], String> {
+    limbs: [&'a Curve; 3],
+    wall: &'a SignedDistance,
+) -> Result<Meeting<'a>, String> {
     let clearance = |x: DVec3| wall.query(x).distance.abs();
     let ahead = |curve: &Curve| (1.5 * clearance(curve.at(0.3 * curve.length()))).min(curve.length());
     let parent = limbs[0].at(ahead(limbs[0]));
@@ -99,12 +109,7 @@ pub(super) fn starts(
     // By growing angle: second, between the daughters, first, parent.
     let [left_parent, right_parent] = [angles[0], angles[1] + TAU];
     let bounds = [[left_parent, right_parent], [angles[2], angles[0]], [angles[1], angles[2]]];
-    let mut starts = Vec::with_capacity(3);
-    let [p, q, r] = joint.half;
-    for ((curve, bounds), sides) in limbs.into_iter().zip(bounds).zip([[p, q], [r, p], [q, r]]) {
-        starts.push(start(&joint, curve, bounds, sides, wall)?);
-    }
-    starts.try_into().map_err(|_| String::from("it has not three limbs"))
+    Ok(Meeting { joint, limbs, bounds, wall })
 }
 
 /// The hinge whose half planes are most alike in area.
@@ -153,6 +158,15 @@ fn best_joint(
     Ok(joint)
 }
 
+impl Meeting<'_> {
+    /// The start of limb `k`, which takes `ease` times the usual length to become plane; or why it has none.
+    pub(super) fn start(&self, k: usize, ease: f64) -> Result<Start, String> {
+        let [p, q, r] = self.joint.half;
+        let sides = [[p, q], [r, p], [q, r]][k];
+        start(&self.joint, self.limbs[k], self.bounds[k], sides, ease, self.wall)
+    }
+}
+
 /// The start of the limb along `curve` in the wedge between two angles about the hinge, `sides` the half planes
 /// there.
 fn start(
@@ -160,6 +174,7 @@ fn start(
     curve: &Curve,
     [low, high]: [f64; 2],
     sides: [Half; 2],
+    ease: f64,
     wall: &SignedDistance,
 ) -> Result<Start, String> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
@@ -194,7 +209,7 @@ fn start(
         let sweep = right.dot(tangent).abs() * rims[1];
         let sweep = sweep.max(left.dot(tangent).abs() * rims[0]);
         joint.center.distance(curve.at(arc))
-            >= (EASE * clear).max(SWEEP * sweep).max(ROOM * rims[0].max(rims[1]))
+            >= (EASE * clear).max(ease * SWEEP * sweep).max(ease * ROOM * rims[0].max(rims[1]))
     };
     let mut until = free;
     while !is_long_enough(until) && until + step < 0.9 * curve.length() {
