@@ -47,6 +47,14 @@ pub struct ShearCycle {
     pub point: Vec<Option<PointIndices>>,
 }
 
+/// What [`ShearSample::stress`](crate::ShearSample::stress) is.
+pub const STRESS_DEFINITION: Definition = Definition {
+    name: "WSS",
+    unit: "Pa",
+    formula: "mu (I - n n) (grad v + grad v^T) m, m = -n into the lumen: the drag on the wall",
+    source: "moving least squares: Lancaster, Salkauskas 1981",
+};
+
 /// What the numbers of [`ShearCycle::fields`] are, in the same order.
 pub const SHEAR_DEFINITIONS: [Definition; 6] = [
     Definition {

@@ -11,7 +11,7 @@ mod viscosity;
 mod window;
 
 pub use cycles::ShearCycles;
-pub use indices::{LARGEST_INVERSE, PointIndices, SHEAR_DEFINITIONS, ShearCycle};
+pub use indices::{LARGEST_INVERSE, PointIndices, SHEAR_DEFINITIONS, STRESS_DEFINITION, ShearCycle};
 pub use mesh::WallMesh;
 pub use near::NearWallDistance;
 pub use shear::{ShearSample, WallMotion, WallShear};
