@@ -2,9 +2,11 @@
 
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
+use vaso_boundary::Split;
 use vaso_driver::DriverError;
 use vaso_driver::extrusion::ExtrusionRequest;
 use vaso_driver::particles::{ParticlesJob, Wanted};
+use vaso_driver::tune::TuneRequest;
 use vaso_units::{dimension, parse_as};
 
 /// Blood flow in a vessel surface by smoothed particle hydrodynamics.
@@ -35,11 +37,68 @@ pub(crate) enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Windkessel parameters from cuff pressures, ready to paste into the case.
+    Tune(TuneFlags),
     /// Make the one-file report of an output folder again.
     Report {
         /// Output folder of a run.
         out: PathBuf,
     },
+}
+
+#[derive(Args)]
+pub(crate) struct TuneFlags {
+    #[command(flatten)]
+    pub(crate) common: Common,
+    /// Highest pressure of the cycle, such as "120 mmHg".
+    #[arg(long, value_parser = pressure)]
+    systolic: f64,
+    /// Lowest pressure of the cycle.
+    #[arg(long, value_parser = pressure)]
+    diastolic: f64,
+    /// Pressure behind the outlets.
+    #[arg(long, value_parser = pressure, default_value = "0 mmHg")]
+    distal: f64,
+    /// How the flow parts: `area`, `murray`, or a share for each outlet in the order of `vaso check`, as `0.67,0.33`.
+    #[arg(long, default_value = "murray", value_parser = split)]
+    split: Split,
+    /// Speed of pulse waves behind the outlets, which sets their proximal resistance.
+    #[arg(long, default_value = "7 m/s", value_parser = speed)]
+    wave_speed: f64,
+}
+
+impl TuneFlags {
+    pub(crate) fn request(&self) -> TuneRequest {
+        TuneRequest {
+            systolic: self.systolic,
+            diastolic: self.diastolic,
+            distal_pressure: self.distal,
+            wave_speed: self.wave_speed,
+            split: self.split.clone(),
+        }
+    }
+}
+
+fn pressure(text: &str) -> Result<f64, String> {
+    parse_as(text, dimension::PRESSURE).map_err(|e| e.to_string())
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    parse_as(text, dimension::VELOCITY).map_err(|e| e.to_string())
+}
+
+fn split(text: &str) -> Result<Split, String> {
+    match text {
+        "area" => Ok(Split::AREA),
+        "murray" => Ok(Split::MURRAY),
+        shares => {
+            let share = |s: &str| s.trim().parse::<f64>();
+            let shares: Result<Vec<f64>, _> = shares.split(',').map(share).collect();
+            shares
+                .map(Split::Given)
+                .map_err(|_| "allowed: area, murray, or shares such as 0.67,0.33".to_owned())
+        }
+    }
 }
 
 #[derive(Args)]

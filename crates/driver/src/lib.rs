@@ -20,6 +20,7 @@ pub mod results;
 pub mod run;
 mod start;
 mod supported;
+pub mod tune;
 pub mod world;
 
 pub use case::Case;

@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vaso_driver::run::Talk;
-use vaso_driver::{Case, DriverError, Plan, check, compare, particles, run};
+use vaso_driver::{Case, DriverError, Plan, check, compare, particles, run, tune};
 use vaso_geometry::LengthUnit;
 
 fn main() -> ExitCode {
@@ -60,6 +60,12 @@ fn execute(command: Command) -> Result<(), DriverError> {
             if common.json {
                 println!("{}", summary.to_json());
             }
+            Ok(())
+        }
+        Command::Tune(flags) => {
+            set_threads(&flags.common)?;
+            let case = Case::load(&flags.common.case, &flags.common.set)?;
+            print!("{}", tune::tune(&case, &flags.request())?);
             Ok(())
         }
         Command::Report { out } => {

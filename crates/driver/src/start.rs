@@ -25,7 +25,8 @@ pub(crate) fn periodic(case: &Case, openings: &mut [PlannedOpening]) -> Result<(
             first.name
         ))
     };
-    let inflow = inflow(openings).ok_or_else(|| {
+    let is_driven = openings.iter().any(|o| matches!(o.condition, Condition::Pressure { .. }));
+    let inflow = inflow(openings).filter(|_| !is_driven).ok_or_else(|| {
         wrong("needs one inlet with a velocity or flow that is constant or repeats, and outlet models elsewhere".into())
     })?;
     let models: Vec<Windkessel> = openings.iter().filter_map(|o| o.condition.model().map(|m| m.0)).collect();
@@ -52,15 +53,14 @@ pub(crate) fn periodic(case: &Case, openings: &mut [PlannedOpening]) -> Result<(
     Ok(())
 }
 
-/// Flow into the vessel \[m^3/s\] over a cycle; `None` where it does not repeat or pressures drive it.
-fn inflow(openings: &[PlannedOpening]) -> Option<Waveform> {
+/// Flow into the vessel \[m^3/s\] over a cycle; `None` where there is not one inlet, or it does not repeat.
+pub(crate) fn inflow(openings: &[PlannedOpening]) -> Option<Waveform> {
     let mut inlets = openings.iter().filter_map(|o| match &o.condition {
         Condition::Velocity { mean, .. } => Some((&mean.source, o.opening.area)),
         _ => None,
     });
     let (source, area) = inlets.next()?;
-    let is_driven = openings.iter().any(|o| matches!(o.condition, Condition::Pressure { .. }));
-    if inlets.next().is_some() || is_driven {
+    if inlets.next().is_some() {
         return None;
     }
     match source {

@@ -179,3 +179,48 @@ fn an_interrupted_run_says_so_and_leaves_a_checkpoint() {
         serde_json::from_slice(&std::fs::read(out.join("summary.json")).expect("summary")).expect("JSON");
     assert_eq!(summary["status"], "interrupted");
 }
+
+/// A pulse of 5 mL/s in the mean into one outlet: what is printed is a case again, and reaches the pressures asked for.
+#[test]
+fn tuned_outlets_can_be_pasted() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    pipe(folder.path());
+    let rows: Vec<String> = (0..=20)
+        .map(|k| {
+            let t = 0.04 * f64::from(k);
+            format!("{t},{}", 0.16 + 0.12 * (std::f64::consts::TAU * t / 0.8).sin())
+        })
+        .collect();
+    std::fs::write(folder.path().join("in.csv"), format!("t_s,u_m_s\n{}\n", rows.join("\n")))
+        .expect("written");
+    let text = std::fs::read_to_string(folder.path().join("case.toml")).expect("copied");
+    let pulsing = text
+        .replace("value = \"53.99325 mm/s\"       # Re mu / (rho D)", "waveform = \"in.csv\"")
+        .replace("end_time = \"1.2 s\"", "period = \"0.8 s\"\ncycles = 1");
+    assert_ne!(pulsing, text);
+    std::fs::write(folder.path().join("case.toml"), &pulsing).expect("written");
+    let tuned = vaso()
+        .arg("tune")
+        .arg(folder.path())
+        .args(["--systolic", "120 mmHg", "--diastolic", "80 mmHg"])
+        .output()
+        .expect("starts");
+    let block = String::from_utf8_lossy(&tuned.stdout).into_owned();
+    assert!(tuned.status.success(), "{}", String::from_utf8_lossy(&tuned.stderr));
+    assert!(block.contains("100.0 % of the flow, 120.0/80.0 mmHg"), "{block}");
+    let start = pulsing.find("[[opening]]\nname = \"outlet\"").expect("the outlet is there");
+    let end = pulsing.find("[run]").expect("the run is there");
+    let pasted = format!("{}{block}\n{}", &pulsing[..start], &pulsing[end..]);
+    std::fs::write(folder.path().join("case.toml"), pasted).expect("written");
+    let answer = json(vaso().arg("check").arg(folder.path()).arg("--json"));
+    let effects = answer["effects"].as_array().expect("a list");
+    assert!(effects.iter().any(|e| e["name"] == "opening.windkessel" && e["on"] == true), "{answer}");
+
+    let steady = vaso()
+        .arg("tune")
+        .arg(root().join("cases/pipe"))
+        .args(["--systolic", "120 mmHg", "--diastolic", "130 mmHg"])
+        .output()
+        .expect("starts");
+    assert_eq!(steady.status.code(), Some(2));
+}

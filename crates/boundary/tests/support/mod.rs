@@ -73,6 +73,7 @@ impl Run {
         fluid.search(openings.zones());
         fluid.summation(openings.zones());
         fluid.viscosity();
+        fluid.offsets();
         let duration = fluid.advective_step();
         let (mut left, mut dt) = (duration, fluid.numbers().acoustic_step(fluid.top_speed()).min(duration));
         fluid.begin_acoustic(dt);
