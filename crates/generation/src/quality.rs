@@ -96,7 +96,10 @@ impl Quality {
         let nearest = Statistics::of(samples.iter().map(|s| s.nearest));
         let kernel_sum = Statistics::of(samples.iter().filter_map(|s| s.kernel_sum));
         let residual = Statistics::of(samples.iter().map(|s| s.residual * s.residual));
-        let volumes = Statistics::of(volume.iter().copied());
+        let mean_volume = volume.iter().sum::<f64>() / volume.len() as f64;
+        // About the mean, as the difference of squares leaves a spread where there is none.
+        let spread =
+            volume.iter().map(|v| (v / mean_volume - 1.0).powi(2)).sum::<f64>() / volume.len() as f64;
         let has_bulk = kernel_sum.n > 0;
         Self {
             count: position.len(),
@@ -106,7 +109,7 @@ impl Quality {
             kernel_sum_mean: has_bulk.then(|| kernel_sum.mean()),
             kernel_sum_std: has_bulk.then(|| kernel_sum.deviation()),
             gradient_residual_rms: residual.mean().sqrt(),
-            volume_cv: volumes.deviation() / volumes.mean(),
+            volume_cv: spread.sqrt(),
             outside: 0,
             seconds: None,
             iterations: 0,
