@@ -60,7 +60,7 @@ cells there are small. The four side blocks of the o-grid have no such corner.
 
 ## Blocks along a vessel
 
-A carotid bifurcation of average dimensions at 0.6 mm, o-grid. Every third section, and the edges of the blocks; what is
+A carotid bifurcation of average dimensions at 0.5 mm, o-grid. Every third section, and the edges of the blocks; what is
 farther from the eye is paler.
 
 ![Sections and blocks of a bifurcation](images/generators-blocks.svg)

@@ -12,7 +12,7 @@ const EDGE: Pen = Pen { color: [0, 90, 160], width: 1.6 };
 const CELL: Pen = Pen { color: [110, 120, 135], width: 0.7 };
 const SECTION: Pen = Pen { color: [190, 70, 20], width: 0.8 };
 /// Spacing in the bifurcation \[m\].
-const SPACING: f64 = 0.6e-3;
+const SPACING: f64 = 0.5e-3;
 /// Every so manyth section is drawn.
 const EVERY: usize = 3;
 /// Angle by which the eye is off the axis of symmetry \[rad\], so that round things look round.
