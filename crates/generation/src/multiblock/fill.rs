@@ -52,7 +52,7 @@ pub(super) struct Work<'a> {
     pub(super) frame: &'a Frame,
     pub(super) lines: &'a Centerlines,
     pub(super) maker: Maker<'a>,
-    pub(super) library: Library,
+    pub(super) wireframes: Library,
     pub(super) report: Report,
 }
 
@@ -168,7 +168,7 @@ impl<'a> Work<'a> {
         let even_until = limb.hinge.map_or(0.0, |h| h.length);
         let mut filling = Filling { stretches: Vec::new(), is_whole: runs.len() == 1 };
         for run in &runs {
-            let layers = self.library.layers(run, spacing, even_until);
+            let layers = self.wireframes.layers(run, spacing, even_until);
             if layers.iter().map(|l| l.arc.len() - 1).sum::<usize>() < FEWEST {
                 filling.is_whole = false;
                 continue;

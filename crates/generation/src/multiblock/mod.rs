@@ -123,7 +123,7 @@ pub fn fluid(
         frame: &frame,
         lines: &lines,
         maker,
-        library: Library::new(options.topology),
+        wireframes: Library::new(options.topology),
         report: Report::default(),
     };
     let (limbs, mut fillings) = work.fill();
