@@ -45,13 +45,14 @@ struct Outcome {
     escaped: u64,
 }
 
-fn run(data: &Path, spacing: f64) -> Outcome {
+fn run(data: &Path, spacing: f64, generator: &str) -> Outcome {
     let folder = tempfile::tempdir().expect("a temporary folder can be had");
     let surface = data.join("geometry/carotid_bifurcation/carotid_lumen.stl");
     let text = CASE.replace("SURFACE", &surface.to_string_lossy()).replace("SPACING", &spacing.to_string());
     let file = folder.path().join("case.toml");
     std::fs::write(&file, text).expect("a temporary file can be written");
-    let case = Case::load(&file, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let set = [("particles.generator".to_owned(), generator.to_owned())];
+    let case = Case::load(&file, &set).unwrap_or_else(|e| panic!("{e}"));
     let plan = Plan::new(&case).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
     let mut flow: Flow<f32> = world::build_flow(&case, &plan, bodies);
@@ -84,16 +85,19 @@ fn check(o: &Outcome) {
 #[test]
 fn blood_flows_through_a_real_carotid() {
     let Some(data) = data() else { return };
-    let outcome = run(&data, 0.6);
-    println!("0.6 mm: {outcome:?}");
-    check(&outcome);
+    let lattice = run(&data, 0.6, "relaxed-lattice");
+    let blocks = run(&data, 0.6, "multiblock");
+    println!("0.6 mm: {lattice:?}\nby blocks: {blocks:?}");
+    check(&lattice);
+    check(&blocks);
+    assert!((lattice.share - blocks.share).abs() < 0.02, "{lattice:?} {blocks:?}");
 }
 
 #[test]
 #[ignore = "ten minutes on two cores; `just validate-long` runs it"]
 fn the_split_of_a_real_carotid_converges() {
     let Some(data) = data() else { return };
-    let (coarse, fine) = (run(&data, 0.4), run(&data, 0.3));
+    let (coarse, fine) = (run(&data, 0.4, "relaxed-lattice"), run(&data, 0.3, "relaxed-lattice"));
     println!("0.4 mm: {coarse:?}\n0.3 mm: {fine:?}");
     check(&coarse);
     check(&fine);

@@ -17,8 +17,9 @@ const OPEN: f64 = 0.4;
 const RAYS: usize = 25;
 /// Largest ratio of the half planes' areas: with more the cells of a limb would be too uneven.
 const UNEVEN: f64 = 2.5;
-/// By how much longer than need be a limb takes to become plane: than to be clear of the others, and than
-/// its rim is swept.
+/// Length a limb takes to become plane, as a multiple of the distance at which it is clear of the others, of how far
+/// the rims of its half planes are swept along it, and of how far the wider reaches. Found on Y and T junctions: shorter
+/// ones turn cells over.
 const EASE: f64 = 1.25;
 const SWEEP: f64 = 2.2;
 const ROOM: f64 = 1.7;

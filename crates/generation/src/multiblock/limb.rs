@@ -14,7 +14,6 @@ const REACH: f64 = 4.0;
 const TURN: f64 = 2.0;
 /// By how much the first and last section lie inside the caps, in radii: the rim itself belongs to both.
 const INSET: f64 = 5e-4;
-const BEND: f64 = 2.0;
 
 /// How a limb starts at a junction: in two half planes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +85,8 @@ impl<'a> Route<'a> {
         let x = y.cross(tangent);
         let mut plane = Plane { origin: self.curve.at(arc), y, right: x, left: -x, bend: 0.0, freedom: 1.0 };
         if let Some(hinge) = &self.hinge {
-            let bend = (1.0 - (arc / hinge.length).powf(BEND)).max(0.0);
+            // Slowly at first, where the half planes reach far and their rims would turn back.
+            let bend = (1.0 - (arc / hinge.length).powi(2)).max(0.0);
             let first = self.frames[0];
             // The part along the limb falls evenly, so that the rim moves evenly along the limb.
             let tilted = |side: DVec3, sign: f64| {

@@ -140,9 +140,9 @@ pub fn fluid(
     };
     report.blocks = fillings.iter().flat_map(|f| &f.stretches).map(|s| s.blocks.len()).sum();
     report.missed_projections = fillings.iter().flat_map(|f| &f.stretches).map(|s| s.missed).sum();
+    let lumen = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     let mut iterations = 0;
     if !is_whole {
-        let lumen = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
         let zone = Zone { lumen: &lumen, blocks: tubes::tubes(&limbs, &fillings) };
         let left = vessel.surface.volume() - volume.iter().sum::<f64>();
         let (extra, steps) = zone::fill(&zone, left, &position, settings, progress)?;
@@ -152,13 +152,12 @@ pub fn fluid(
         volume.resize(position.len() + extra.len(), left / extra.len().max(1) as f64);
         position.extend(extra);
     }
-    let lumen = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     if options.place == Place::Centers {
         report.pushed_particles = spread::spread(&lumen, settings.spacing, &mut position, &mut volume);
     }
     let mean = volume.iter().sum::<f64>() / volume.len() as f64;
     report.smallest_cell = volume.iter().fold(f64::INFINITY, |a, b| a.min(*b)) / mean;
-    let quality = quality(vessel, settings, &mut position, &mut volume, iterations);
+    let quality = quality(vessel, &lumen, settings, &mut position, &mut volume, iterations);
     let mut outline =
         Outline::of(limbs.iter().zip(&fillings).map(|(l, f)| (&l.route, f.stretches.as_slice())));
     outline.restore(&frame);
@@ -170,15 +169,15 @@ pub fn fluid(
 /// Measures the particles, which it puts in the order of the search grid.
 fn quality(
     vessel: &Vessel,
+    lumen: &Lumen<'_>,
     settings: &Settings,
     position: &mut Vec<DVec3>,
     volume: &mut Vec<f64>,
     iterations: usize,
 ) -> Quality {
-    let region = Lumen::new(vessel, settings.spacing, settings.smoothing_length());
     let kernel = Wendland::new(settings.smoothing * settings.spacing);
     let relaxation =
-        Relaxation { region: &region, kernel, spacing: settings.spacing, volume: settings.spacing.powi(3) };
+        Relaxation { region: lumen, kernel, spacing: settings.spacing, volume: settings.spacing.powi(3) };
     let mut quality = Quality::measure(&relaxation, position, volume, vessel.surface.volume());
     let (closed, outside) = (SignedDistance::closed(vessel), ROUNDING * settings.spacing);
     quality.outside = position.par_iter().filter(|x| closed.query(**x).distance >= outside).count();
