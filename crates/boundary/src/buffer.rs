@@ -126,6 +126,7 @@ impl Openings {
                     particle: i as u32,
                     opening: k as u32,
                     normal: ports[k].opening.normal,
+                    depth: s,
                     in_buffer: s <= length,
                 })
             },

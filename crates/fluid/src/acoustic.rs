@@ -1,7 +1,7 @@
 //! The acoustic step: position Verlet with the configuration frozen (drift, kick, drift).
 
-use crate::fluid::{Fluid, maximum, numbered, propagating_max};
-use crate::law::density::Divergence;
+use crate::fluid::{FAR, Fluid, maximum, numbered, propagating_max};
+use crate::law::density::{CapDivergence, Divergence};
 use crate::law::pressure::{self, FluidPressure, WallPressureForce};
 use crate::law::wall_pressure::WallPressure;
 use glam::DVec3;
@@ -139,6 +139,7 @@ impl<R: Real> Fluid<R> {
                     next[k][4] = R::pack(v.x);
                     next[k][5] = R::pack(v.y);
                     next[k][6] = R::pack(v.z);
+                    next[k][7] = R::pack(frozen.cap_depth);
                     top = propagating_max(top, v.length_squared());
                 }
                 top
@@ -153,6 +154,7 @@ impl<R: Real> Fluid<R> {
         let numbers = self.numbers;
         let gradient = self.kernel.gradient_scale();
         let (isa, frame) = (self.isa, &self.frame);
+        let sharpness = self.kernel.support() / numbers.spacing;
         let next = &self.next;
         let gather = Gather { frame, own: next, other: next, own_second: None, other_second: None };
         let state = &mut self.state;
@@ -169,7 +171,11 @@ impl<R: Real> Fluid<R> {
             .enumerate()
             .for_each(|(c, (density_change, rate, position, current, frozen, row))| {
                 let mut sums = [[0.0; 1]; CHUNK];
-                sweep(isa, &Divergence, &gather, numbered(row, c), Store::None, &mut sums);
+                if frozen.iter().all(|f| f.cap_depth >= FAR) {
+                    sweep(isa, &Divergence, &gather, numbered(row, c), Store::None, &mut sums);
+                } else {
+                    sweep(isa, &CapDivergence { sharpness }, &gather, numbered(row, c), Store::None, &mut sums);
+                }
                 for k in 0..density_change.len() {
                     let i = c * CHUNK + k;
                     let v = velocity[i];

@@ -11,6 +11,8 @@ pub struct CapZone {
     pub opening: u32,
     /// Outward normal of the cap.
     pub normal: DVec3,
+    /// Depth behind the cap \[m\].
+    pub depth: f64,
     /// Whether the particle is in the buffer, where density follows continuity alone.
     pub in_buffer: bool,
 }

@@ -32,7 +32,12 @@ pub(crate) struct Frozen {
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
     pub inverse_distance: f64,
+    /// Depth behind a cap \[supports\], [`FAR`] where there is none.
+    pub cap_depth: f64,
 }
+
+/// [`Frozen::cap_depth`] away from caps.
+pub(crate) const FAR: f64 = 1e3;
 
 impl Default for Frozen {
     fn default() -> Self {
@@ -46,6 +51,7 @@ impl Default for Frozen {
             wall_normal: DVec3::ZERO,
             wall_area: 0.0,
             inverse_distance: 0.0,
+            cap_depth: FAR,
         }
     }
 }
@@ -179,12 +185,16 @@ impl<R: Real> Fluid<R> {
         self.frozen.resize(n, Frozen::default());
         let floor = 0.05 * self.numbers.spacing;
         let (distance, reach, rows) = (&self.wall_distance, self.reach, &self.wall.fluid_rows);
-        let position = &self.state.position;
+        let (position, zone_of) = (&self.state.position, &self.zone_of);
         self.frozen.par_chunks_mut(CHUNK).zip(rows.chunks()).enumerate().for_each(|(c, (frozen, row))| {
             for (k, frozen) in frozen.iter_mut().enumerate() {
                 *frozen = Frozen::default();
+                let i = c * CHUNK + k;
+                if zone_of[i] != 0 {
+                    frozen.cap_depth = zones[zone_of[i] as usize - 1].depth.max(0.0) / reach;
+                }
                 if !row.is_row_empty(k) {
-                    let (phi, gradient) = distance.sample(position[c * CHUNK + k]);
+                    let (phi, gradient) = distance.sample(position[i]);
                     frozen.inverse_distance = 1.0 / (-phi).clamp(floor, reach);
                     frozen.wall_normal = -gradient;
                 }
