@@ -64,7 +64,7 @@ impl Openings {
                 let volume = fluid.state.mass[i] / rest_density;
                 sums[k].volume += volume;
                 sums[k].moment += volume * fluid.state.velocity[i].dot(zone.normal);
-                sums[k].pressure += volume * fluid.pressure(i);
+                sums[k].pressure += volume * fluid.acoustic_pressure(i);
             }
         }
         for ((port, sum), imposed) in self.ports.iter_mut().zip(&sums).zip(&imposed) {
@@ -107,7 +107,7 @@ impl Openings {
                                 && port.opening.lateral(x) < port.opening.radius
                         })
                         .fold((0.0, 0), |(sum, n), i| {
-                            (sum + self.numbers.pressure(state.density_change[i]), n + 1)
+                            (sum + state.pressure[i], n + 1)
                         });
                     reference + sum / f64::from(n.max(1))
                 }

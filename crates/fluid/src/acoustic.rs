@@ -29,6 +29,7 @@ impl<R: Real> Fluid<R> {
 
     /// First half of an acoustic step `dt` \[s\]: density and position to the middle, pressure from the density.
     pub fn begin_acoustic(&mut self, dt: f64) {
+        self.elapsed = 0.0;
         let numbers = self.numbers;
         let state = &mut self.state;
         (
@@ -71,6 +72,8 @@ impl<R: Real> Fluid<R> {
     /// Kicks all velocities by pressure and viscosity over `dt` \[s\] and drifts positions to the
     /// end of the step. Returns the top speed \[m/s\].
     pub fn kick(&mut self, dt: f64) -> f64 {
+        self.elapsed += dt;
+        let share = dt / self.elapsed;
         let numbers = self.numbers;
         let rho0 = numbers.rest_density;
         let impedance = rho0 * numbers.sound_speed;
@@ -93,6 +96,7 @@ impl<R: Real> Fluid<R> {
             state.velocity.par_chunks_mut(CHUNK),
             state.position.par_chunks_mut(CHUNK),
             state.density_rate.par_chunks_mut(CHUNK),
+            state.pressure.par_chunks_mut(CHUNK),
             next_records.par_chunks_mut(CHUNK),
             self.frozen.par_chunks(CHUNK),
             self.rows.chunks(),
@@ -101,7 +105,7 @@ impl<R: Real> Fluid<R> {
         )
             .into_par_iter()
             .enumerate()
-            .map(|(c, (velocity, position, rate, next, frozen, row, wall_row, offsets))| {
+            .map(|(c, (velocity, position, rate, mean, next, frozen, row, wall_row, offsets))| {
                 let mut fluid = [[0.0; pressure::FLUID_SUMS]; CHUNK];
                 let mut walls = [[0.0; pressure::WALL_SUMS]; CHUNK];
                 sweep(isa, &law, &fluid_gather, numbered(row, c), Store::Read(offsets), &mut fluid);
@@ -122,8 +126,10 @@ impl<R: Real> Fluid<R> {
                     let change = density_change[i];
                     let rho = rho0 + change;
                     let neighbours = DVec3::new(f[0] + w[0], f[1] + w[1], f[2] + w[2]);
-                    let pressure_force = gradient * frozen.correction.mul(neighbours)
-                        - numbers.pressure(change) * frozen.own_pressure;
+                    let pressure = numbers.pressure(change);
+                    mean[k] += share * (pressure - mean[k]);
+                    let pressure_force =
+                        gradient * frozen.correction.mul(neighbours) - pressure * frozen.own_pressure;
                     let dissipation = gradient * DVec3::new(f[3], f[4], f[5]);
                     // Closing speed of the particle and its mirror image behind a wall at rest.
                     let closing = (-2.0 * velocity[k].dot(frozen.wall_normal)).max(0.0);

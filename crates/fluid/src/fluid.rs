@@ -32,7 +32,8 @@ pub(crate) struct Frozen {
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
     pub inverse_distance: f64,
-    /// Depth behind a cap \[supports\], [`FAR`] where there is none.
+    /// How far into the vessel the divergence looks along the normal of a cap \[supports\], see
+    /// [`CapDivergence`](crate::law::density::CapDivergence); [`FAR`] away from caps.
     pub cap_depth: f64,
 }
 
@@ -86,6 +87,8 @@ pub struct Fluid<R> {
     /// One more than the place in the zone list, zero away from caps.
     pub(crate) zone_of: Vec<u32>,
     pub(crate) lattice_sum: f64,
+    /// Time since the first of the acoustic steps \[s\].
+    pub(crate) elapsed: f64,
     wall_distance: Box<dyn WallDistance>,
     reach: f64,
 }
@@ -121,6 +124,7 @@ impl<R: Real> Fluid<R> {
             strain: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
+            elapsed: 0.0,
             wall_distance,
             reach: kernel.support(),
         }
@@ -191,7 +195,7 @@ impl<R: Real> Fluid<R> {
                 *frozen = Frozen::default();
                 let i = c * CHUNK + k;
                 if zone_of[i] != 0 {
-                    frozen.cap_depth = zones[zone_of[i] as usize - 1].depth.max(0.0) / reach;
+                    frozen.cap_depth = zones[zone_of[i] as usize - 1].open_depth() / reach;
                 }
                 if !row.is_row_empty(k) {
                     let (phi, gradient) = distance.sample(position[i]);
@@ -224,8 +228,13 @@ impl<R: Real> Fluid<R> {
         ]
     }
 
-    /// Pressure of particle `i` \[Pa\], relative to the reference pressure.
+    /// Pressure of particle `i` \[Pa\] relative to the reference pressure, the mean over the last advective step.
     pub fn pressure(&self, i: usize) -> f64 {
+        self.state.pressure[i]
+    }
+
+    /// Pressure of particle `i` \[Pa\] relative to the reference pressure, as its density is at this acoustic step.
+    pub fn acoustic_pressure(&self, i: usize) -> f64 {
         self.numbers.pressure(self.state.density_change[i])
     }
 
