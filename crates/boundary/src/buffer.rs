@@ -127,6 +127,7 @@ impl Openings {
                     opening: k as u32,
                     normal: ports[k].opening.normal,
                     depth: s,
+                    // Whatever the buffer owns moves as asked, see `apply`.
                     is_imposed: state.opening[i] == k as i32
                         && matches!(ports[k].condition, Condition::Velocity { .. }),
                     in_buffer: s <= length,

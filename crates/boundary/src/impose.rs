@@ -7,8 +7,7 @@ use crate::profile::Amplitudes;
 use num_complex::Complex64;
 use vaso_fluid::{Fluid, FluidState, Real};
 
-/// Length of the section inside a velocity buffer over which the pressure is averaged, in
-/// spacings. The buffer itself carries no meaningful pressure.
+/// Length of the section inside a velocity buffer over which the pressure is averaged, in spacings.
 const SECTION: f64 = 4.0;
 
 impl Openings {
@@ -106,9 +105,7 @@ impl Openings {
                             (near..far).contains(&port.opening.depth(x))
                                 && port.opening.lateral(x) < port.opening.radius
                         })
-                        .fold((0.0, 0), |(sum, n), i| {
-                            (sum + state.pressure[i], n + 1)
-                        });
+                        .fold((0.0, 0), |(sum, n), i| (sum + state.pressure[i], n + 1));
                     reference + sum / f64::from(n.max(1))
                 }
             };

@@ -180,7 +180,14 @@ impl<R: Real> Fluid<R> {
                 if frozen.iter().all(|f| f.cap_depth >= FAR) {
                     sweep(isa, &Divergence, &gather, numbered(row, c), Store::None, &mut sums);
                 } else {
-                    sweep(isa, &CapDivergence { sharpness }, &gather, numbered(row, c), Store::None, &mut sums);
+                    sweep(
+                        isa,
+                        &CapDivergence { sharpness },
+                        &gather,
+                        numbered(row, c),
+                        Store::None,
+                        &mut sums,
+                    );
                 }
                 for k in 0..density_change.len() {
                     let i = c * CHUNK + k;

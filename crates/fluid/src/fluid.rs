@@ -32,8 +32,8 @@ pub(crate) struct Frozen {
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
     pub inverse_distance: f64,
-    /// How far into the vessel the divergence looks along the normal of a cap \[supports\], see
-    /// [`CapDivergence`](crate::law::density::CapDivergence); [`FAR`] away from caps.
+    /// Depth behind a cap \[supports\] as [`CapDivergence`](crate::law::density::CapDivergence) takes it; [`FAR`] away from
+    /// caps.
     pub cap_depth: f64,
 }
 

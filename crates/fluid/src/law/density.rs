@@ -22,6 +22,9 @@ impl<R: Real> PairLaw<R, 1> for Divergence {
     }
 }
 
+/// Slope of the change to all neighbours at a depth of one support: in effect a step.
+const STEEP: f64 = 1e3;
+
 /// [`Divergence`] near caps; the scalar of both records is the depth behind the cap, in supports.
 ///
 /// A particle nearer to the cap than a support looks only as far into the vessel as to the cap: in what is left, both sides
@@ -43,7 +46,7 @@ impl<R: Real> PairLaw<R, 1> for CapDivergence {
     fn pair<L: Lanes<Elem = R>>(sharpness: &L, own: &Own<L>, p: &Pair<L>, sums: &mut [L; 1]) {
         let one = L::constant(1.0);
         let is_within = sharpness.fma(own.scalar + own.scalar - p.scalar, L::constant(0.5)).min(one);
-        let is_deep = *sharpness * (own.scalar - one);
+        let is_deep = (own.scalar - one) * L::constant(STEEP);
         let share = is_within.max(is_deep.min(one)).max(L::zero());
         let dv = [
             own.velocity[0] - p.velocity[0],
