@@ -93,7 +93,9 @@ impl Openings {
                 continue;
             }
             let volume = state.mass[i] / self.numbers.rest_density;
-            readings[k].flow += volume * state.velocity[i].dot(zone.normal) / near;
+            let outward = state.velocity[i].dot(zone.normal) / near;
+            readings[k].flow += volume * outward;
+            readings[k].kinetic_power += 0.5 * state.mass[i] * state.velocity[i].length_squared() * outward;
         }
         for (k, port) in self.ports.iter().enumerate() {
             readings[k].outlet = port.outlet.as_ref().map(|o| o.state.outlet);

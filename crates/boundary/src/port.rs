@@ -123,6 +123,8 @@ pub struct Reading {
     pub flow: f64,
     /// The imposed pressure, or else the mean over a section just inside the buffer \[Pa\].
     pub pressure: f64,
+    /// Kinetic energy that leaves the vessel a second, averaged as the flow is \[W\].
+    pub kinetic_power: f64,
     /// Where the outlet model stands, if there is one.
     pub outlet: Option<OutletState>,
 }

@@ -11,6 +11,7 @@ pub mod extrusion;
 pub mod flow;
 mod kept;
 pub mod ledger;
+pub mod observe;
 pub mod particles;
 pub mod plan;
 pub mod print;
@@ -20,6 +21,7 @@ pub mod results;
 pub mod run;
 mod start;
 mod supported;
+mod timing;
 pub mod tune;
 pub mod world;
 

@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::estimate;
-use crate::{start, supported};
+use crate::{start, supported, timing};
 use glam::DVec3;
 use vaso_boundary::{Condition, Profile, Signal, Source, Waveform, Windkessel};
 use vaso_fluid::{Isa, Numbers};
@@ -41,6 +41,12 @@ pub struct Plan {
     pub ramp: f64,
     /// End of the run \[s\].
     pub end_time: f64,
+    /// Period of the pulse \[s\]; `None` for a flow that has none.
+    pub period: Option<f64>,
+    /// Time in which a flow without a period settles \[s\].
+    pub settling_time: f64,
+    /// Whether wall shear stress is asked for.
+    pub wall_metrics: bool,
     /// Peak Reynolds number at the inlet.
     pub reynolds_peak: f64,
     /// Womersley number at the inlet, for pulsatile flow.
@@ -68,6 +74,8 @@ impl Plan {
         let ramp_default = scene.run.period.map_or(DEFAULT_RAMP, |period| DEFAULT_RAMP.max(0.1 * period));
         let mut openings = planned_openings(case, ramp_default)?;
         start::periodic(case, &mut openings)?;
+        let period = timing::period(scene, &openings);
+        supported::check_cycles(scene, period)?;
         let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
 
         let flow = estimate::Flow::new(
@@ -140,6 +148,9 @@ impl Plan {
             isa,
             ramp,
             end_time: scene.run.end_time,
+            period,
+            settling_time: timing::settling(&case.vessel, &openings, &flow, viscosity / density),
+            wall_metrics: scene.output.fields.iter().any(|f| supported::is_shear(*f)),
             reynolds_peak: flow.reynolds_peak,
             womersley,
             effects: supported::effects(scene, &openings),

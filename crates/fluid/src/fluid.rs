@@ -193,7 +193,7 @@ impl<R: Real> Fluid<R> {
     }
 
     /// Signed distance to the wall \[m\] and its gradient.
-    pub(crate) fn distance(&self, x: DVec3) -> (f64, DVec3) {
+    pub fn distance(&self, x: DVec3) -> (f64, DVec3) {
         self.wall_distance.sample(x)
     }
 
