@@ -13,8 +13,11 @@ use vaso_io::{OutputDir, SeriesWriter, Table};
 
 mod frames;
 mod summary;
+mod wall;
 
 pub use frames::append_frame;
+use wall::WallFile;
+
 pub use summary::{numbers, opening_entry, surface_report};
 
 /// Mean of each opening over a time.
@@ -47,6 +50,7 @@ impl Means {
 pub struct Results {
     folder: std::path::PathBuf,
     fluid: SeriesWriter,
+    wall: Option<WallFile>,
     table: Table,
     probes: Option<Table>,
     next_frame: f64,
@@ -82,7 +86,11 @@ impl Results {
             Some(Table::create(out.file("probes.csv"), &header)?)
         };
         let n = plan.openings.len();
+        let observers = Observers::new(case, plan)?;
+        let fields = &case.scene.output.fields;
+        let wall = observers.wall.as_ref().map(|w| WallFile::create(out.file("wall.vtkhdf"), w, fields));
         Ok(Self {
+            wall: wall.transpose()?,
             folder: out.path().to_owned(),
             fluid: SeriesWriter::create(out.file("fluid.vtkhdf")),
             table,
@@ -93,7 +101,7 @@ impl Results {
             late: Means::new(n),
             late_start: None,
             last_time: 0.0,
-            observers: Observers::new(case, plan)?,
+            observers,
         })
     }
 
@@ -166,11 +174,14 @@ impl Results {
         self.write_frame(flow, case)
     }
 
-    /// Writes a frame of the fluid, unless this time has one.
+    /// Writes a frame of the fluid and of the wall, unless this time has one.
     ///
     /// # Errors
     /// When the file cannot be written.
     pub fn write_frame<R: Real>(&mut self, flow: &Flow<R>, case: &Case) -> Result<(), DriverError> {
+        if let (Some(file), Some(wall)) = (&mut self.wall, &self.observers.wall) {
+            file.append(flow.time, wall)?;
+        }
         if self.fluid.last_time() == Some(flow.time) {
             return Ok(());
         }
