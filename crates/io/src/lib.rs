@@ -25,6 +25,9 @@ pub use generated::{
     Quality, ShellReport, WallReport,
 };
 pub use output::OutputDir;
-pub use series::{FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, read_series_info};
+pub use series::{
+    FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, SurfaceField, SurfaceFrame,
+    SurfaceMesh, SurfaceSeriesWriter, read_series_info,
+};
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};
