@@ -191,6 +191,7 @@ fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Drive
         let profile = |p: vaso_scene::Profile| match p {
             vaso_scene::Profile::Plug => Profile::Plug,
             vaso_scene::Profile::Parabolic => Profile::Parabolic,
+            vaso_scene::Profile::Power { exponent } => Profile::Power { exponent },
             vaso_scene::Profile::FullyDeveloped => Profile::FullyDeveloped,
             vaso_scene::Profile::Womersley => Profile::Womersley,
         };

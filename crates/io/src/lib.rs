@@ -4,6 +4,7 @@ mod archive;
 mod atomic;
 mod cache;
 mod check;
+mod cycles;
 mod error;
 mod generated;
 mod hdf5;
@@ -14,11 +15,15 @@ pub mod schema;
 mod series;
 mod summary;
 mod table;
+mod wall;
 
 pub use archive::Archive;
 pub use atomic::write as write_whole;
 pub use cache::{Cache, CacheKey, KeyBuilder};
 pub use check::{CheckReport, EffectEntry, Numbers, OpeningEntry, Predicted, SurfaceReport};
+pub use cycles::{
+    CycleSummary, EndReason, EnergySummary, OpeningCycleSummary, PeriodicitySummary, PressureDropSummary,
+};
 pub use error::IoError;
 pub use generated::{
     Blocks, CompareReport, ComparedGenerator, Extrusion, Histogram, IntersectionEntry, ParticlesReport,
@@ -31,3 +36,4 @@ pub use series::{
 };
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};
+pub use wall::{Distribution, LOW_TAWSS, WallSummary};

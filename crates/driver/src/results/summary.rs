@@ -59,6 +59,7 @@ impl Results {
             surface: Some(surface_report(&case.vessel)),
             numbers: Some(numbers(plan)),
             warnings: plan.warnings.clone(),
+            ..Summary::default()
         }
     }
 
