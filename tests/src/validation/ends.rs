@@ -31,7 +31,9 @@ pub fn along<R: Real>(pipe: &Pipe) -> Along {
     let axis = pipe.axis.normalize();
     let mut steps = 0.0;
     let mut noise = vec![[0.0_f64; 5]; n];
-    let mean = std::env::args().nth(3).and_then(|a| a.parse::<f64>().ok()).unwrap_or(100.0) * pipe.viscosity / pipe.density / pipe.diameter;
+    let mean = std::env::args().nth(3).and_then(|a| a.parse::<f64>().ok()).unwrap_or(100.0) * pipe.viscosity
+        / pipe.density
+        / pipe.diameter;
     while flow.time < plan.end_time {
         flow.step(plan.end_time).unwrap_or_else(|e| panic!("{e}"));
         if flow.time < 0.75 * plan.end_time {
@@ -70,7 +72,18 @@ pub fn along<R: Real>(pipe: &Pipe) -> Along {
         pressure: sums.iter().map(|s| s[1] / s[0]).collect(),
         core: sums.iter().map(|s| s[4] / s[3]).collect(),
         filled: sums.iter().map(|s| s[0] * volume / steps / (pipe.area() * pipe.length / n as f64)).collect(),
-        noise: noise.iter().zip(&sums).map(|(m, s)| [(m[0] / s[0]).sqrt() / mean / 2.0, (m[1] / s[0]).sqrt() / mean / 2.0, m[2] / s[0] / mean / mean, m[4] / s[0] / mean / 2.0]).collect(),
+        noise: noise
+            .iter()
+            .zip(&sums)
+            .map(|(m, s)| {
+                [
+                    (m[0] / s[0]).sqrt() / mean / 2.0,
+                    (m[1] / s[0]).sqrt() / mean / 2.0,
+                    m[2] / s[0] / mean / mean,
+                    m[4] / s[0] / mean / 2.0,
+                ]
+            })
+            .collect(),
         velocity: sums.iter().map(|s| s[2] / s[0]).collect(),
     }
 }
