@@ -1,7 +1,9 @@
 //! Tools of the tests that span crates: cases run through the library, and flows compared with formulas.
 
+pub mod pipe;
 pub mod poiseuille;
 pub mod shear_thinning;
+pub mod validation;
 
 use std::path::PathBuf;
 use vaso_driver::{Case, Flow, Plan, world};
@@ -26,6 +28,11 @@ pub fn data() -> Option<PathBuf> {
             None
         }
     }
+}
+
+/// Folder of particles that cases without one of their own share.
+pub fn cache() -> PathBuf {
+    root().join("tests/.vaso-cache")
 }
 
 /// A flow of `case` from rest, with the particles made anew or taken from the cache.

@@ -5,7 +5,7 @@
 //! crosses the cap is removed. Both happen at every opening, so flow may reverse.
 
 use crate::openings::Openings;
-use crate::port::Port;
+use crate::port::{Condition, Port};
 use crate::profile::Inlet;
 use glam::DVec3;
 use num_complex::Complex64;
@@ -126,6 +126,10 @@ impl Openings {
                     particle: i as u32,
                     opening: k as u32,
                     normal: ports[k].opening.normal,
+                    depth: s,
+                    // Whatever the buffer owns moves as asked, see `apply`.
+                    is_imposed: state.opening[i] == k as i32
+                        && matches!(ports[k].condition, Condition::Velocity { .. }),
                     in_buffer: s <= length,
                 })
             },

@@ -7,8 +7,7 @@ use crate::profile::Amplitudes;
 use num_complex::Complex64;
 use vaso_fluid::{Fluid, FluidState, Real};
 
-/// Length of the section inside a velocity buffer over which the pressure is averaged, in
-/// spacings. The buffer itself carries no meaningful pressure.
+/// Length of the section inside a velocity buffer over which the pressure is averaged, in spacings.
 const SECTION: f64 = 4.0;
 
 impl Openings {
@@ -64,7 +63,7 @@ impl Openings {
                 let volume = fluid.state.mass[i] / rest_density;
                 sums[k].volume += volume;
                 sums[k].moment += volume * fluid.state.velocity[i].dot(zone.normal);
-                sums[k].pressure += volume * fluid.pressure(i);
+                sums[k].pressure += volume * fluid.acoustic_pressure(i);
             }
         }
         for ((port, sum), imposed) in self.ports.iter_mut().zip(&sums).zip(&imposed) {
@@ -108,9 +107,7 @@ impl Openings {
                             (near..far).contains(&port.opening.depth(x))
                                 && port.opening.lateral(x) < port.opening.radius
                         })
-                        .fold((0.0, 0), |(sum, n), i| {
-                            (sum + self.numbers.pressure(state.density_change[i]), n + 1)
-                        });
+                        .fold((0.0, 0), |(sum, n), i| (sum + state.pressure[i], n + 1));
                     reference + sum / f64::from(n.max(1))
                 }
             };

@@ -1,7 +1,7 @@
 //! The acoustic step: position Verlet with the configuration frozen (drift, kick, drift).
 
-use crate::fluid::{Fluid, maximum, numbered, propagating_max};
-use crate::law::density::Divergence;
+use crate::fluid::{FAR, Fluid, maximum, numbered, propagating_max};
+use crate::law::density::{CapDivergence, Divergence};
 use crate::law::pressure::{self, FluidPressure, WallPressureForce};
 use crate::law::wall_pressure::WallPressure;
 use glam::DVec3;
@@ -29,6 +29,7 @@ impl<R: Real> Fluid<R> {
 
     /// First half of an acoustic step `dt` \[s\]: density and position to the middle, pressure from the density.
     pub fn begin_acoustic(&mut self, dt: f64) {
+        self.elapsed = 0.0;
         let numbers = self.numbers;
         let state = &mut self.state;
         (
@@ -71,6 +72,8 @@ impl<R: Real> Fluid<R> {
     /// Kicks all velocities by pressure and viscosity over `dt` \[s\] and drifts positions to the
     /// end of the step. Returns the top speed \[m/s\].
     pub fn kick(&mut self, dt: f64) -> f64 {
+        self.elapsed += dt;
+        let share = dt / self.elapsed;
         let numbers = self.numbers;
         let rho0 = numbers.rest_density;
         let impedance = rho0 * numbers.sound_speed;
@@ -93,6 +96,7 @@ impl<R: Real> Fluid<R> {
             state.velocity.par_chunks_mut(CHUNK),
             state.position.par_chunks_mut(CHUNK),
             state.density_rate.par_chunks_mut(CHUNK),
+            state.pressure.par_chunks_mut(CHUNK),
             next_records.par_chunks_mut(CHUNK),
             self.frozen.par_chunks(CHUNK),
             self.rows.chunks(),
@@ -101,7 +105,7 @@ impl<R: Real> Fluid<R> {
         )
             .into_par_iter()
             .enumerate()
-            .map(|(c, (velocity, position, rate, next, frozen, row, wall_row, offsets))| {
+            .map(|(c, (velocity, position, rate, mean, next, frozen, row, wall_row, offsets))| {
                 let mut fluid = [[0.0; pressure::FLUID_SUMS]; CHUNK];
                 let mut walls = [[0.0; pressure::WALL_SUMS]; CHUNK];
                 sweep(isa, &law, &fluid_gather, numbered(row, c), Store::Read(offsets), &mut fluid);
@@ -122,8 +126,10 @@ impl<R: Real> Fluid<R> {
                     let change = density_change[i];
                     let rho = rho0 + change;
                     let neighbours = DVec3::new(f[0] + w[0], f[1] + w[1], f[2] + w[2]);
-                    let pressure_force = gradient * frozen.correction.mul(neighbours)
-                        - numbers.pressure(change) * frozen.own_pressure;
+                    let pressure = numbers.pressure(change);
+                    mean[k] += share * (pressure - mean[k]);
+                    let pressure_force =
+                        gradient * frozen.correction.mul(neighbours) - pressure * frozen.own_pressure;
                     let dissipation = gradient * DVec3::new(f[3], f[4], f[5]);
                     // Closing speed of the particle and its mirror image behind a wall at rest.
                     let closing = (-2.0 * velocity[k].dot(frozen.wall_normal)).max(0.0);
@@ -139,6 +145,7 @@ impl<R: Real> Fluid<R> {
                     next[k][4] = R::pack(v.x);
                     next[k][5] = R::pack(v.y);
                     next[k][6] = R::pack(v.z);
+                    next[k][7] = R::pack(frozen.cap_depth);
                     top = propagating_max(top, v.length_squared());
                 }
                 top
@@ -153,6 +160,7 @@ impl<R: Real> Fluid<R> {
         let numbers = self.numbers;
         let gradient = self.kernel.gradient_scale();
         let (isa, frame) = (self.isa, &self.frame);
+        let sharpness = self.kernel.support() / numbers.spacing;
         let next = &self.next;
         let gather = Gather { frame, own: next, other: next, own_second: None, other_second: None };
         let state = &mut self.state;
@@ -169,7 +177,18 @@ impl<R: Real> Fluid<R> {
             .enumerate()
             .for_each(|(c, (density_change, rate, position, current, frozen, row))| {
                 let mut sums = [[0.0; 1]; CHUNK];
-                sweep(isa, &Divergence, &gather, numbered(row, c), Store::None, &mut sums);
+                if frozen.iter().all(|f| f.cap_depth >= FAR) {
+                    sweep(isa, &Divergence, &gather, numbered(row, c), Store::None, &mut sums);
+                } else {
+                    sweep(
+                        isa,
+                        &CapDivergence { sharpness },
+                        &gather,
+                        numbered(row, c),
+                        Store::None,
+                        &mut sums,
+                    );
+                }
                 for k in 0..density_change.len() {
                     let i = c * CHUNK + k;
                     let v = velocity[i];

@@ -11,6 +11,20 @@ pub struct CapZone {
     pub opening: u32,
     /// Outward normal of the cap.
     pub normal: DVec3,
+    /// Depth behind the cap \[m\].
+    pub depth: f64,
+    /// Whether the velocity of the particle is imposed.
+    pub is_imposed: bool,
     /// Whether the particle is in the buffer, where density follows continuity alone.
     pub in_buffer: bool,
 }
+
+impl CapZone {
+    /// Depth \[m\] up to which the fluid behind the cap is free; an imposed flow has no divergence, so nothing counts.
+    pub(crate) fn open_depth(&self) -> f64 {
+        if self.is_imposed { IMPOSED } else { self.depth.max(0.0) }
+    }
+}
+
+/// Below any depth, by more than a support.
+const IMPOSED: f64 = -1e3;

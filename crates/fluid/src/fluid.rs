@@ -32,7 +32,13 @@ pub(crate) struct Frozen {
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
     pub inverse_distance: f64,
+    /// Depth behind a cap \[supports\] as [`CapDivergence`](crate::law::density::CapDivergence) takes it; [`FAR`] away from
+    /// caps.
+    pub cap_depth: f64,
 }
+
+/// [`Frozen::cap_depth`] away from caps.
+pub(crate) const FAR: f64 = 1e3;
 
 impl Default for Frozen {
     fn default() -> Self {
@@ -46,6 +52,7 @@ impl Default for Frozen {
             wall_normal: DVec3::ZERO,
             wall_area: 0.0,
             inverse_distance: 0.0,
+            cap_depth: FAR,
         }
     }
 }
@@ -80,6 +87,8 @@ pub struct Fluid<R> {
     /// One more than the place in the zone list, zero away from caps.
     pub(crate) zone_of: Vec<u32>,
     pub(crate) lattice_sum: f64,
+    /// Time since the first of the acoustic steps \[s\].
+    pub(crate) elapsed: f64,
     wall_distance: Box<dyn WallDistance>,
     reach: f64,
 }
@@ -115,6 +124,7 @@ impl<R: Real> Fluid<R> {
             strain: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
+            elapsed: 0.0,
             wall_distance,
             reach: kernel.support(),
         }
@@ -179,12 +189,16 @@ impl<R: Real> Fluid<R> {
         self.frozen.resize(n, Frozen::default());
         let floor = 0.05 * self.numbers.spacing;
         let (distance, reach, rows) = (&self.wall_distance, self.reach, &self.wall.fluid_rows);
-        let position = &self.state.position;
+        let (position, zone_of) = (&self.state.position, &self.zone_of);
         self.frozen.par_chunks_mut(CHUNK).zip(rows.chunks()).enumerate().for_each(|(c, (frozen, row))| {
             for (k, frozen) in frozen.iter_mut().enumerate() {
                 *frozen = Frozen::default();
+                let i = c * CHUNK + k;
+                if zone_of[i] != 0 {
+                    frozen.cap_depth = zones[zone_of[i] as usize - 1].open_depth() / reach;
+                }
                 if !row.is_row_empty(k) {
-                    let (phi, gradient) = distance.sample(position[c * CHUNK + k]);
+                    let (phi, gradient) = distance.sample(position[i]);
                     frozen.inverse_distance = 1.0 / (-phi).clamp(floor, reach);
                     frozen.wall_normal = -gradient;
                 }
@@ -214,8 +228,13 @@ impl<R: Real> Fluid<R> {
         ]
     }
 
-    /// Pressure of particle `i` \[Pa\], relative to the reference pressure.
+    /// Pressure of particle `i` \[Pa\] relative to the reference pressure, the mean over the last advective step.
     pub fn pressure(&self, i: usize) -> f64 {
+        self.state.pressure[i]
+    }
+
+    /// Pressure of particle `i` \[Pa\] relative to the reference pressure, as its density is at this acoustic step.
+    pub fn acoustic_pressure(&self, i: usize) -> f64 {
         self.numbers.pressure(self.state.density_change[i])
     }
 

@@ -12,6 +12,11 @@ pub struct FluidState {
     pub velocity: VectorColumn,
     /// Density minus rest density \[kg/m^3\]: the difference keeps the digits the pressure needs.
     pub density_change: ScalarColumn,
+    /// Pressure, the mean over the acoustic steps of the last advective step, relative to the reference pressure \[Pa\].
+    ///
+    /// That is what moved the fluid. The pressure at the end of an advective step differs from it throughout the vessel:
+    /// the density has just been let go after it was moved towards the kernel sum at the start of the step.
+    pub pressure: ScalarColumn,
     /// Rate of change of the density, of the last acoustic step \[kg/(m^3 s)\].
     pub density_rate: ScalarColumn,
     /// Mass \[kg\].
@@ -33,6 +38,7 @@ impl FluidState {
             position: Column::with("position", "m", position),
             velocity: Column::with("velocity", "m/s", vec![DVec3::ZERO; n]),
             density_change: Column::with("density_change", "kg/m^3", vec![0.0; n]),
+            pressure: Column::with("pressure", "Pa", vec![0.0; n]),
             density_rate: Column::with("density_rate", "kg/(m^3 s)", vec![0.0; n]),
             mass: Column::with("mass", "kg", volume.iter().map(|v| rest_density * v).collect()),
             id: Column::with("id", "", (0..n as u64).collect()),
@@ -53,10 +59,11 @@ impl FluidState {
 
 impl Columns for FluidState {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
-        let Self { position, velocity, density_change, density_rate, mass, id, opening } = self;
+        let Self { position, velocity, density_change, pressure, density_rate, mass, id, opening } = self;
         visitor.vector(position);
         visitor.vector(velocity);
         visitor.scalar(density_change);
+        visitor.scalar(pressure);
         visitor.scalar(density_rate);
         visitor.scalar(mass);
         visitor.integer(id);

@@ -14,6 +14,8 @@ use vaso_particles::WallDistance;
 
 /// Samples in a window: they take the noise of single particles away before magnitudes are taken.
 const SAMPLES: f64 = 10.0;
+/// Advective steps from one sample to the next, at least: in fewer, particles have hardly moved, and their noise is the same.
+const STEPS: u64 = 4;
 
 /// Follows the wall shear stress on the vessel surface.
 pub struct WallObserver {
@@ -30,6 +32,7 @@ pub struct WallObserver {
     window: ShearWindow,
     length: f64,
     next_sample: f64,
+    next_step: u64,
     next_window: f64,
     cycles: Option<ShearCycles>,
 }
@@ -61,6 +64,7 @@ impl WallObserver {
             window: ShearWindow::new(mesh.position.len()),
             length,
             next_sample: 0.0,
+            next_step: 0,
             next_window: length,
             cycles,
             shear,
@@ -75,9 +79,10 @@ impl WallObserver {
 
     /// Takes the state after a step; gives the change of the time-averaged stress when a cycle ended that is not the first.
     pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) -> Result<Option<f64>, DriverError> {
-        if flow.time < self.next_sample {
+        if flow.time < self.next_sample || flow.advective_steps < self.next_step {
             return Ok(None);
         }
+        self.next_step = flow.advective_steps + STEPS;
         self.next_sample = flow.time + self.length / SAMPLES;
         let (fluid, state) = (&flow.fluid, &flow.fluid.state);
         let coarse = Coarse(fluid);

@@ -9,7 +9,7 @@ use vaso_metrics::{Definition, SHEAR_DEFINITIONS, STRESS_DEFINITION, ShearCycle}
 use vaso_scene::Field;
 
 /// The series of the wall.
-pub struct WallFile {
+pub(super) struct WallFile {
     series: SurfaceSeriesWriter,
     has_stress: bool,
     /// Which of the indices of a cycle are asked for.
@@ -27,7 +27,7 @@ impl WallFile {
     ///
     /// # Errors
     /// When it cannot be declared.
-    pub fn create(path: PathBuf, wall: &WallObserver, fields: &[Field]) -> Result<Self, DriverError> {
+    pub(super) fn create(path: PathBuf, wall: &WallObserver, fields: &[Field]) -> Result<Self, DriverError> {
         let indices: Vec<usize> = fields.iter().filter_map(|f| index(*f)).collect();
         let has_stress = fields.contains(&Field::Wss);
         let vector = |definition| declared(definition, 3);
@@ -43,7 +43,7 @@ impl WallFile {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn append(&mut self, time: f64, wall: &WallObserver) -> Result<(), DriverError> {
+    pub(super) fn append(&mut self, time: f64, wall: &WallObserver) -> Result<(), DriverError> {
         if self.series.last_time() == Some(time) {
             return Ok(());
         }

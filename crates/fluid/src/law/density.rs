@@ -21,3 +21,38 @@ impl<R: Real> PairLaw<R, 1> for Divergence {
         sums[0] = gradient_weight(p.u, p.volume).fma(dot(dv, p.d), sums[0]);
     }
 }
+
+/// Slope of the change to all neighbours at a depth of one support: in effect a step.
+const STEEP: f64 = 1e3;
+
+/// [`Divergence`] near caps; the scalar of both records is the depth behind the cap, in supports.
+///
+/// A particle nearer to the cap than a support looks only as far into the vessel as to the cap: in what is left, both sides
+/// along the normal weigh the same, so that a velocity that does not change along it has no divergence. With all
+/// neighbours, a flow that varies across the cap would.
+pub struct CapDivergence {
+    /// Supports over the length within which a neighbour fades out.
+    pub sharpness: f64,
+}
+
+impl<R: Real> PairLaw<R, 1> for CapDivergence {
+    type Constants<L: Lanes<Elem = R>> = L;
+
+    fn constants<L: Lanes<Elem = R>>(&self) -> L {
+        L::constant(self.sharpness)
+    }
+
+    #[inline(always)]
+    fn pair<L: Lanes<Elem = R>>(sharpness: &L, own: &Own<L>, p: &Pair<L>, sums: &mut [L; 1]) {
+        let one = L::constant(1.0);
+        let is_within = sharpness.fma(own.scalar + own.scalar - p.scalar, L::constant(0.5)).min(one);
+        let is_deep = (own.scalar - one) * L::constant(STEEP);
+        let share = is_within.max(is_deep.min(one)).max(L::zero());
+        let dv = [
+            own.velocity[0] - p.velocity[0],
+            own.velocity[1] - p.velocity[1],
+            own.velocity[2] - p.velocity[2],
+        ];
+        sums[0] = (gradient_weight(p.u, p.volume) * share).fma(dot(dv, p.d), sums[0]);
+    }
+}

@@ -1,0 +1,3 @@
+//! Flows against formulas, other programs and measurements.
+
+pub mod ends;
