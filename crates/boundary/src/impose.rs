@@ -46,7 +46,7 @@ impl Openings {
                     if port.outlet.is_some() && outward < 0.0 {
                         // The traction beta rho |v| v / 2 on the cap, spread over the buffer, taken implicitly.
                         let slower =
-                            outward / (1.0 + 0.5 * self.backflow_damping * outward.abs() * dt / length);
+                            outward / (1.0 + 0.5 * port.backflow_damping * outward.abs() * dt / length);
                         let loss = outward * outward - slower * slower;
                         sums[k].damped += 0.5 * fluid.state.mass[i] * loss;
                         outward = slower;

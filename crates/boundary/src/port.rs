@@ -91,6 +91,8 @@ pub struct Port {
     pub condition: Condition,
     /// What went through.
     pub counters: Counters,
+    /// Strength of the damping of backflow, where there is a model.
+    pub(crate) backflow_damping: f64,
     /// The model behind a resistance or Windkessel.
     pub(crate) outlet: Option<Outlet>,
     /// The profile behind a velocity.

@@ -5,6 +5,7 @@ pub mod case;
 pub mod check;
 pub mod checkpoint;
 pub mod compare;
+mod conditions;
 pub mod error;
 pub mod estimate;
 pub mod extrusion;

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use vaso_fluid::Real;
-use vaso_io::{IoError, OutputDir, SeriesWriter, Status, Summary};
+use vaso_io::{EndReason, IoError, OutputDir, SeriesWriter, Status, Summary};
 use vaso_scene::Precision;
 
 /// How a command talks to the person.
@@ -93,11 +93,12 @@ fn run_precision<R: Real>(
         Ok(settled) => (results.finish(&flow, case), settled),
         Err(error) => (Err(error), None),
     };
-    if let Some(reason) = &settled {
-        talk.say(&format!("ended early at {:.4} s: {reason}", flow.time));
+    if let Some((_, words)) = &settled {
+        talk.say(&format!("ended early at {:.4} s: {words}", flow.time));
     }
     let mut summary = results.summary(&mut flow, case, plan, n_wall, started.elapsed().as_secs_f64());
-    summary.message = settled;
+    summary.end_reason = ended.is_ok().then(|| settled.as_ref().map_or(EndReason::EndTime, |s| s.0));
+    summary.message = settled.map(|s| s.1);
     if ended.is_ok() {
         talk.say(&print::ledger(&flow.ledger, flow.particle_substeps));
     }
@@ -123,7 +124,7 @@ fn advance<R: Real>(
     plan: &Plan,
     stop: &AtomicBool,
     progress: &mut Progress,
-) -> Result<Option<String>, DriverError> {
+) -> Result<Option<(EndReason, String)>, DriverError> {
     while flow.time < plan.end_time {
         let stepped = flow.step(plan.end_time);
         if let Err(diverged) = stepped {

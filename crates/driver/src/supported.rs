@@ -58,33 +58,9 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
 }
 
-/// Refuses fields of a cycle where there is none.
-///
-/// # Errors
-/// One problem for each such field.
-pub(crate) fn check_cycles(scene: &Scene, period: Option<f64>) -> Result<(), DriverError> {
-    let fields = scene.output.fields.iter().filter(|f| period.is_none() && is_cyclic(**f));
-    let problems: Vec<String> = fields
-        .map(|field| {
-            format!(
-                "{}: `output.fields` has \"{}\", which is of a whole cycle, and nothing has a period; give `run.period`, or a \
-                 waveform with a `period`, or leave it out",
-                scene.file.display(),
-                field.word()
-            )
-        })
-        .collect();
-    if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
-}
-
 /// Whether a field is wall shear stress or made of it.
 pub(crate) fn is_shear(field: Field) -> bool {
-    matches!(field, Field::Wss) || is_cyclic(field)
-}
-
-/// Whether a field is that of a whole cycle.
-pub(crate) fn is_cyclic(field: Field) -> bool {
-    matches!(field, Field::Tawss | Field::Osi | Field::Rrt)
+    field == Field::Wss || field.is_of_a_cycle()
 }
 
 /// Shear rate at which the viscosity of a law stands for all in the numbers of a plan \[1/s\]: that of a large artery.
@@ -220,8 +196,12 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
         ),
         either(
             "metrics.settling",
-            if scene.run.steady.is_some() { "`run.steady` may end the run early" } else { "" },
-            "`run.steady` is not given",
+            match (scene.run.steady, scene.run.periodicity) {
+                (Some(_), _) => "`run.steady` may end the run early",
+                (None, Some(_)) => "`run.periodicity` may end the run early",
+                (None, None) => "",
+            },
+            "neither `run.steady` nor `run.periodicity` is given",
         ),
         either(
             "probes",

@@ -79,6 +79,12 @@ pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> 
     let body =
         Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
     let ports = plan.openings.iter().map(|o| (o.opening.clone(), o.condition.clone())).collect();
-    let openings = Openings::new(ports, &plan.numbers, plan.reference_pressure);
+    let mut openings = Openings::new(ports, &plan.numbers, plan.reference_pressure);
+    for (k, planned) in plan.openings.iter().enumerate() {
+        openings.set_coupling(k, planned.coupling);
+        if let Some(strength) = planned.backflow_damping {
+            openings.set_backflow_damping(k, strength);
+        }
+    }
     Flow::new(body, openings, case.scene.numerics.allow_mach)
 }

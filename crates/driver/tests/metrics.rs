@@ -49,7 +49,7 @@ value = "0 Pa"
 
 /// Mean over the wall of a field of the last frame, away from the buffers.
 fn middle(folder: &Path, field: &str) -> f64 {
-    let mut series = vaso_io::SeriesReader::open(&folder.join("out/wall.vtkhdf")).expect("the wall is there");
+    let series = vaso_io::SeriesReader::open(&folder.join("out/wall.vtkhdf")).expect("the wall is there");
     let last = series.info().times.len() - 1;
     let frame = series.frame(last).expect("the last frame can be read");
     let scalar = frame.scalars.iter().find(|(name, _)| name == field).map(|(_, values)| values.clone());

@@ -42,7 +42,7 @@ pub(crate) const FAR: f64 = 1e3;
 
 impl Frozen {
     /// Distance to the wall \[m\]; zero where it is beyond reach.
-    pub fn wall_distance(&self) -> f64 {
+    pub(crate) fn wall_distance(&self) -> f64 {
         if self.inverse_distance > 0.0 { 1.0 / self.inverse_distance } else { 0.0 }
     }
 }

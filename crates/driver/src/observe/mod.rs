@@ -18,6 +18,7 @@ use crate::flow::Flow;
 use crate::ledger::Stage;
 use crate::plan::Plan;
 use vaso_fluid::Real;
+use vaso_io::EndReason;
 use vaso_metrics::Verdict;
 
 /// All that watches a flow.
@@ -40,21 +41,26 @@ impl Observers {
     pub fn new(case: &Case, plan: &Plan) -> Result<Self, DriverError> {
         let steady = case.scene.run.steady;
         let names = || plan.openings.iter().map(|o| o.name.clone()).collect();
-        let openings = plan.period.map(|period| OpeningObserver::new(names(), period, steady)).transpose()?;
+        let alike = case.scene.run.periodicity.or(steady);
+        let openings = plan.period.map(|period| OpeningObserver::new(names(), period, alike)).transpose()?;
         let settling =
             steady.filter(|_| plan.period.is_none()).map(|share| Settling::new(share, plan.settling_time));
         let wall = plan.wall_metrics.then(|| WallObserver::new(case, plan)).transpose()?;
         Ok(Self { openings, wall, settling, energy: EnergyObserver::new(plan) })
     }
 
-    /// Takes the state after a step; tells why the run may end, if it may.
+    /// Takes the state after a step; tells why the run may end, if it may, also in words.
     ///
     /// # Errors
     /// When the columns of the flow do not belong together.
-    pub fn after_step<R: Real>(&mut self, flow: &mut Flow<R>) -> Result<Option<String>, DriverError> {
+    pub fn after_step<R: Real>(
+        &mut self,
+        flow: &mut Flow<R>,
+    ) -> Result<Option<(EndReason, String)>, DriverError> {
         let start = std::time::Instant::now();
         self.energy.add(flow);
         let settled = self.settling.as_mut().and_then(|settling| settling.add(flow));
+        let settled = settled.map(|words| (EndReason::Steady, words));
         if let Some(openings) = &mut self.openings {
             openings.add(flow)?;
         }
@@ -68,9 +74,12 @@ impl Observers {
         let watches_wall = self.wall.as_ref().is_some_and(WallObserver::has_cycles);
         let periodic =
             self.openings.as_mut().and_then(|openings| match openings.judge(watches_wall, shear) {
-                Some(Verdict::Periodic) => Some(format!(
-                    "the last two cycles are alike: flows and pressures changed by {:.2} %",
-                    100.0 * openings.last_change().unwrap_or(0.0)
+                Some(Verdict::Periodic) => Some((
+                    EndReason::Periodic,
+                    format!(
+                        "the last two cycles are alike: flows and pressures changed by {:.2} %",
+                        100.0 * openings.last_change().unwrap_or(0.0)
+                    ),
                 )),
                 _ => None,
             });

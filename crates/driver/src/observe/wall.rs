@@ -27,6 +27,8 @@ pub struct WallObserver {
     pub cycle: Option<ShearCycle>,
     /// Points without a value in the last sample.
     pub missing: usize,
+    /// Mean of the time-averaged stress over the wall, of each whole cycle with its number.
+    means: Vec<(u64, f64)>,
     shear: WallShear,
     exact: SignedDistance,
     window: ShearWindow,
@@ -60,6 +62,7 @@ impl WallObserver {
             stress: None,
             cycle: None,
             missing: 0,
+            means: Vec::new(),
             exact: SignedDistance::wall(&case.vessel),
             window: ShearWindow::new(mesh.position.len()),
             length,
@@ -75,6 +78,11 @@ impl WallObserver {
     /// Whether stresses are summed over cycles.
     pub(super) fn has_cycles(&self) -> bool {
         self.cycles.is_some()
+    }
+
+    /// Mean over the wall of the time-averaged stress of a cycle \[Pa\], where it is whole.
+    pub fn mean_tawss(&self, cycle: u64) -> Option<f64> {
+        self.means.iter().find(|(number, _)| *number == cycle).map(|(_, mean)| *mean)
     }
 
     /// Takes the state after a step; gives the change of the time-averaged stress when a cycle ended that is not the first.
@@ -117,6 +125,7 @@ impl WallObserver {
         let Some(cycles) = &mut self.cycles else { return Ok(None) };
         let Some(ended) = cycles.add(time, stress)? else { return Ok(None) };
         let change = self.cycle.as_ref().and_then(|before| ended.change_from(before, &self.mesh.area));
+        self.means.extend(ended.mean_tawss(&self.mesh.area).map(|mean| (ended.number, mean)));
         self.cycle = Some(ended);
         Ok(change)
     }

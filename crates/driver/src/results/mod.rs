@@ -9,8 +9,9 @@ use crate::plan::Plan;
 use frames::interpolate;
 use glam::DVec3;
 use vaso_fluid::Real;
-use vaso_io::{OutputDir, SeriesWriter, Table};
+use vaso_io::{EndReason, OutputDir, SeriesWriter, Table};
 
+mod account;
 mod frames;
 mod summary;
 mod wall;
@@ -119,7 +120,7 @@ impl Results {
         flow: &mut Flow<R>,
         case: &Case,
         plan: &Plan,
-    ) -> Result<Option<String>, DriverError> {
+    ) -> Result<Option<(EndReason, String)>, DriverError> {
         let settled = self.observers.after_step(flow)?;
         let dt = flow.time - self.last_time;
         self.last_time = flow.time;

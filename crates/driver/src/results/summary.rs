@@ -1,6 +1,6 @@
 //! What `summary.json` says of a run.
 
-use super::{Results, outflows};
+use super::{Results, account, outflows};
 use crate::case::Case;
 use crate::flow::Flow;
 use crate::ledger::Stage;
@@ -56,10 +56,13 @@ impl Results {
             },
             openings: openings.collect(),
             effects: costed_effects(flow, plan),
+            end_reason: None,
+            cycles: account::cycles(&self.observers, &case.scene.output.fractional_flow_reserve),
+            energy: Some(account::energy(&self.observers.energy, flow.openings.ports())),
+            wall: self.observers.wall.as_ref().map(|w| account::wall(w, plan.numbers.spacing)),
             surface: Some(surface_report(&case.vessel)),
             numbers: Some(numbers(plan)),
             warnings: plan.warnings.clone(),
-            ..Summary::default()
         }
     }
 

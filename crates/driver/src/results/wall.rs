@@ -85,6 +85,9 @@ fn index(field: Field) -> Option<usize> {
         Field::Tawss => "TAWSS",
         Field::Osi => "OSI",
         Field::Rrt => "RRT",
+        Field::Ecap => "ECAP",
+        Field::TransverseWss => "TransverseWSS",
+        Field::PeakWss => "PeakWSS",
         _ => return None,
     };
     SHEAR_DEFINITIONS.iter().position(|d| d.name == name)
