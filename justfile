@@ -35,6 +35,10 @@ bench:
 figures:
     cargo run --release -p vaso-tests --example figures -- 10 16 20 > docs/figures.md
 
+# The page of the validation with the cases named run anew (`all` for all, about an hour on two cores); wants VASO_DATA.
+validation *cases:
+    cargo run --release -p vaso-tests --example validation -- {{cases}}
+
 # The page of the generators with its pictures; some minutes on two cores.
 generators:
     cargo run --release -p vaso-tests --example generators

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use vaso_driver::{Case, Flow, Plan, world};
 use vaso_fluid::Real;
 use vaso_geometry::{shapes, write_stl};
@@ -31,6 +31,8 @@ pub struct Pipe {
     pub density: f64,
     /// Viscosity \[Pa s\].
     pub viscosity: f64,
+    /// Name of a law that the viscosity follows instead.
+    pub law: Option<&'static str>,
     /// Keys of the inlet in `case.toml`.
     pub inlet: String,
     /// Keys of the outlet.
@@ -56,6 +58,7 @@ impl Pipe {
             across,
             density: 1050.0,
             viscosity: 3.6e-3,
+            law: None,
             inlet: String::new(),
             outlet: String::new(),
             end_time: 1.2,
@@ -93,8 +96,9 @@ impl Pipe {
     pub fn plan(&self) -> (Case, Plan) {
         let folder = tempfile::tempdir().expect("a temporary folder can be had");
         let (name, metres) = self.unit;
-        let surface = shapes::pipe(self.radius(), self.length, self.axis, SEGMENTS);
-        write_stl(&folder.path().join("pipe.stl"), &surface.map(|v| (v + self.origin) / metres))
+        let surface = shapes::pipe(self.radius(), self.length, DVec3::Z, SEGMENTS);
+        let turn = DQuat::from_rotation_arc(DVec3::Z, self.axis.normalize());
+        write_stl(&folder.path().join("pipe.stl"), &surface.map(|v| (turn * v + self.origin) / metres))
             .expect("a temporary file can be written");
         let table = self.inflow.iter().fold(String::new(), |mut text, [t, value]| {
             writeln!(text, "{t},{value}").expect("a string can be written to");
@@ -103,16 +107,19 @@ impl Pipe {
         std::fs::write(folder.path().join("inflow.csv"), table).expect("a temporary file can be written");
         let near = |x: DVec3| format!("[{}, {}, {}]", x.x / metres, x.y / metres, x.z / metres);
         let end = self.origin + self.length * self.axis.normalize();
+        let viscosity = match self.law {
+            Some(law) => format!("{{ model = \"{law}\" }}"),
+            None => format!("\"{} Pa s\"", self.viscosity),
+        };
         let text = format!(
             "[geometry]\nsurface = \"pipe.stl\"\nunit = \"{name}\"\n\
              [particles]\nspacing = \"{} m\"\n\
-             [blood]\ndensity = \"{} kg/m^3\"\nviscosity = \"{} Pa s\"\n\
+             [blood]\ndensity = \"{} kg/m^3\"\nviscosity = {viscosity}\n\
              [[opening]]\nname = \"inlet\"\nnear = {}\n{}\n\
              [[opening]]\nname = \"outlet\"\nnear = {}\n{}\n\
              [run]\nend_time = \"{} s\"\n{}\n",
             self.spacing(),
             self.density,
-            self.viscosity,
             near(self.origin),
             self.inlet,
             near(end),

@@ -1,0 +1,41 @@
+//! Writes `docs/validation.md`. Cases named as arguments are run before, all of them with `all`:
+//! `cargo run --release -p vaso-tests --example validation -- poiseuille ends`. Those on outside data want `VASO_DATA`.
+
+use std::process::ExitCode;
+
+use vaso_tests::root;
+use vaso_tests::validation::{CASES, case, page};
+
+fn main() -> ExitCode {
+    let mut asked: Vec<String> = std::env::args().skip(1).collect();
+    if asked == ["all"] {
+        asked = CASES.iter().map(|c| c.name.to_owned()).collect();
+    }
+    for name in &asked {
+        let Some(case) = case(name) else {
+            eprintln!(
+                "no case \"{name}\"; there are: {}",
+                CASES.iter().map(|c| c.name).collect::<Vec<_>>().join(", ")
+            );
+            return ExitCode::FAILURE;
+        };
+        println!("{name}");
+        let Some(outcome) = (case.full)() else { continue };
+        for figure in &outcome.figures {
+            println!(
+                "  {}: {:+.5} {}",
+                figure.what,
+                figure.error,
+                if figure.holds() { "" } else { "MISSED" }
+            );
+        }
+        println!("  {} particles, {:.0} s", outcome.particles, outcome.seconds);
+        // Read anew: another run may have added its own meanwhile.
+        let mut results = page::load();
+        results.insert(name.clone(), outcome);
+        page::save(&results);
+    }
+    std::fs::write(root().join("docs/validation.md"), page::render(&page::load()))
+        .expect("the page can be written");
+    ExitCode::SUCCESS
+}
