@@ -1,8 +1,9 @@
-"""Opens a particle series with VTK's own reader and compares every number with what was written.
+"""Opens a series with VTK's own reader and compares every number with what was written.
 
 usage: check_vtkhdf.py SERIES.vtkhdf EXPECTED.json
 
 EXPECTED.json: {"frames": [{"time": t, "points": [[x, y, z], ...], "fields": {name: [...], ...}}, ...]}
+A frame of a surface has "triangles": [[a, b, c], ...] as well. "null" among values stands for NaN.
 Values are compared in single precision, bit for bit; ids as integers. Exit code 1 and one line a
 contradiction when something differs.
 """
@@ -58,8 +59,10 @@ def compare(frame, output, complaints):
     if not np.array_equal(vtk_to_numpy(output.GetPoints().GetData()), points):
         complaints.append(f"{where}: points differ")
 
+    if "triangles" in frame:
+        compare_triangles(where, frame["triangles"], output, complaints)
     # One cell that uses every point once, else a mapper draws nothing or the wrong ones.
-    if output.GetNumberOfVerts() != 1 or output.GetNumberOfCells() != 1:
+    elif output.GetNumberOfVerts() != 1 or output.GetNumberOfCells() != 1:
         complaints.append(f"{where}: {output.GetNumberOfVerts()} vertex cells of {output.GetNumberOfCells()}, expected 1 of 1")
     elif not np.array_equal(vtk_to_numpy(output.GetVerts().GetConnectivityArray()), np.arange(len(points))):
         complaints.append(f"{where}: the cell does not list every point")
@@ -72,8 +75,21 @@ def compare(frame, output, complaints):
     for name, values in frame["fields"].items():
         read = vtk_to_numpy(data.GetArray(name))
         wanted = np.asarray(values, dtype=np.int64 if name == "Id" else np.float32)
-        if read.dtype.itemsize != wanted.dtype.itemsize or not np.array_equal(read, wanted):
+        has_nan = wanted.dtype.kind == "f"
+        if read.dtype.itemsize != wanted.dtype.itemsize or not np.array_equal(read, wanted, equal_nan=has_nan):
             complaints.append(f"{where}: field {name} differs")
+
+
+def compare_triangles(where, triangles, output, complaints):
+    if output.GetNumberOfCells() != len(triangles) or output.GetNumberOfPolys() != len(triangles):
+        complaints.append(f"{where}: {output.GetNumberOfPolys()} polygons of {output.GetNumberOfCells()} cells, expected {len(triangles)}")
+        return
+    polygons = output.GetPolys()
+    corners = vtk_to_numpy(polygons.GetConnectivityArray()).reshape(-1, 3)
+    if not np.array_equal(corners, np.asarray(triangles)):
+        complaints.append(f"{where}: triangles differ")
+    if not np.array_equal(vtk_to_numpy(polygons.GetOffsetsArray()), np.arange(len(triangles) + 1) * 3):
+        complaints.append(f"{where}: polygons are not triangles")
 
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ impl Openings {
                     if port.outlet.is_some() && outward < 0.0 {
                         // The traction beta rho |v| v / 2 on the cap, spread over the buffer, taken implicitly.
                         let slower =
-                            outward / (1.0 + 0.5 * self.backflow_damping * outward.abs() * dt / length);
+                            outward / (1.0 + 0.5 * port.backflow_damping * outward.abs() * dt / length);
                         let loss = outward * outward - slower * slower;
                         sums[k].damped += 0.5 * fluid.state.mass[i] * loss;
                         outward = slower;
@@ -92,7 +92,9 @@ impl Openings {
                 continue;
             }
             let volume = state.mass[i] / self.numbers.rest_density;
-            readings[k].flow += volume * state.velocity[i].dot(zone.normal) / near;
+            let outward = state.velocity[i].dot(zone.normal) / near;
+            readings[k].flow += volume * outward;
+            readings[k].kinetic_power += 0.5 * state.mass[i] * state.velocity[i].length_squared() * outward;
         }
         for (k, port) in self.ports.iter().enumerate() {
             readings[k].outlet = port.outlet.as_ref().map(|o| o.state.outlet);

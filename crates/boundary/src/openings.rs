@@ -32,7 +32,6 @@ pub struct Openings {
     pub(crate) spacing: f64,
     pub(crate) next_id: u64,
     reference: Reference,
-    pub(crate) backflow_damping: f64,
     pub(crate) zones: Vec<CapZone>,
     /// Steady unit-mean profile value at each zone entry.
     pub(crate) shape: Vec<f64>,
@@ -61,7 +60,8 @@ impl Openings {
                     }
                     _ => None,
                 };
-                Port { opening, condition, counters: Counters::default(), outlet, inlet }
+                let backflow_damping = BACKFLOW_DAMPING;
+                Port { opening, condition, counters: Counters::default(), backflow_damping, outlet, inlet }
             })
             .collect();
         let fixed_value = ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }));
@@ -77,24 +77,24 @@ impl Openings {
             spacing: numbers.spacing,
             next_id: 0,
             reference,
-            backflow_damping: BACKFLOW_DAMPING,
             zones: Vec::new(),
             shape: Vec::new(),
             waves: Vec::new(),
         }
     }
 
-    /// Chooses how outlet models take up the flow; [`Coupling::Impedance`] unless called.
-    pub fn set_coupling(&mut self, coupling: Coupling) {
-        for outlet in self.ports.iter_mut().filter_map(|p| p.outlet.as_mut()) {
+    /// Chooses how the outlet model of opening `k` takes up the flow; [`Coupling::Impedance`] unless called. Nothing happens
+    /// at other openings.
+    pub fn set_coupling(&mut self, k: usize, coupling: Coupling) {
+        if let Some(outlet) = &mut self.ports[k].outlet {
             outlet.coupling = coupling;
         }
     }
 
-    /// Sets how strongly flow that comes in through an outlet model is damped: 0 not at all, 0.5 unless called, at
+    /// Sets how strongly flow that comes in through the outlet model of opening `k` is damped: 0 not at all, 0.5 unless called, at
     /// most 1 (Moghadam et al. 2011, there beta).
-    pub fn set_backflow_damping(&mut self, strength: f64) {
-        self.backflow_damping = strength;
+    pub fn set_backflow_damping(&mut self, k: usize, strength: f64) {
+        self.ports[k].backflow_damping = strength;
     }
 
     /// Puts the outlet model of opening `k` into a state, such as the start of its periodic cycle

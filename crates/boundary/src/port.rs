@@ -91,6 +91,8 @@ pub struct Port {
     pub condition: Condition,
     /// What went through.
     pub counters: Counters,
+    /// Strength of the damping of backflow, where there is a model.
+    pub(crate) backflow_damping: f64,
     /// The model behind a resistance or Windkessel.
     pub(crate) outlet: Option<Outlet>,
     /// The profile behind a velocity.
@@ -123,6 +125,8 @@ pub struct Reading {
     pub flow: f64,
     /// The imposed pressure, or else the mean over a section just inside the buffer \[Pa\].
     pub pressure: f64,
+    /// Kinetic energy that leaves the vessel a second, averaged as the flow is \[W\].
+    pub kinetic_power: f64,
     /// Where the outlet model stands, if there is one.
     pub outlet: Option<OutletState>,
 }

@@ -57,7 +57,7 @@ fn a_full_store_empties_into_the_other() {
     let store = |initial_pressure| Condition::Windkessel { model, initial_pressure };
     let full = 2.0 * resistance * SPEED * area();
     let mut run = Run::new(numbers(2.0 * SPEED), [store(full), store(0.0)], None);
-    run.openings.set_backflow_damping(0.0);
+    (0..2).for_each(|k| run.openings.set_backflow_damping(k, 0.0));
     let (mut ratio, mut n) = ([0.0; 2], 0.0);
     while run.time < 0.1 {
         run.step();
@@ -92,7 +92,7 @@ fn backflow_is_damped_and_counted() {
     };
     let energy = |strength: f64| {
         let mut run = Run::new(numbers(2.0 * SPEED), [store(800.0), store(0.0)], None);
-        run.openings.set_backflow_damping(strength);
+        (0..2).for_each(|k| run.openings.set_backflow_damping(k, strength));
         while run.time < 0.005 {
             run.step();
         }

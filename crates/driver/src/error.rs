@@ -40,6 +40,9 @@ pub enum DriverError {
     /// The report.
     #[error(transparent)]
     Report(#[from] vaso_report::ReportError),
+    /// What is read off the flow.
+    #[error(transparent)]
+    Metrics(#[from] vaso_metrics::MetricsError),
     /// The run broke down.
     #[error(transparent)]
     Diverged(#[from] crate::flow::Diverged),
@@ -76,7 +79,7 @@ impl DriverError {
         match self {
             Self::Scene(_) | Self::Geometry { .. } | Self::Generation { .. } | Self::Input { .. } => 2,
             Self::Io(IoError::Finished { .. } | IoError::Foreign { .. } | IoError::Exists { .. }) => 2,
-            Self::Io(_) | Self::Report(_) | Self::Diverged(_) => 1,
+            Self::Io(_) | Self::Report(_) | Self::Metrics(_) | Self::Diverged(_) => 1,
             Self::Interrupted { .. } => 130,
         }
     }

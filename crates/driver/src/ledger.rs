@@ -27,13 +27,15 @@ pub enum Stage {
     Transport,
     /// Checks and measurements.
     Guard,
+    /// Wall shear stress on the surface.
+    WallShear,
     /// Files.
     Output,
 }
 
 impl Stage {
     /// All stages in the order of a step.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Exchange,
         Self::Rows,
         Self::Summation,
@@ -45,6 +47,7 @@ impl Stage {
         Self::Continuity,
         Self::Transport,
         Self::Guard,
+        Self::WallShear,
         Self::Output,
     ];
 
@@ -62,6 +65,7 @@ impl Stage {
             Self::Continuity => "blood.continuity",
             Self::Transport => "blood.transport",
             Self::Guard => "guard",
+            Self::WallShear => "metrics.wall_shear",
             Self::Output => "output",
         }
     }

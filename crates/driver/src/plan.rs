@@ -1,25 +1,15 @@
 //! From a case to a plan: which effects run, with which numbers, why, and at what expected cost.
 
 use crate::case::Case;
+use crate::conditions;
+pub use crate::conditions::PlannedOpening;
 use crate::error::DriverError;
 use crate::estimate;
-use crate::{start, supported};
-use glam::DVec3;
-use vaso_boundary::{Condition, Profile, Signal, Source, Waveform, Windkessel};
+use crate::{start, supported, timing};
+use vaso_boundary::Condition;
 use vaso_fluid::{Isa, Numbers};
 use vaso_io::{EffectEntry, Predicted};
-use vaso_scene::{Drive, Precision};
-
-/// One opening as it will run.
-#[derive(Clone, Debug)]
-pub struct PlannedOpening {
-    /// Name from the case.
-    pub name: String,
-    /// Cap of the vessel.
-    pub opening: vaso_geometry::Opening,
-    /// What is imposed.
-    pub condition: Condition,
-}
+use vaso_scene::Precision;
 
 /// What will run.
 #[derive(Clone, Debug)]
@@ -41,6 +31,12 @@ pub struct Plan {
     pub ramp: f64,
     /// End of the run \[s\].
     pub end_time: f64,
+    /// Period of the pulse \[s\]; `None` for a flow that has none.
+    pub period: Option<f64>,
+    /// Time in which a flow without a period settles \[s\].
+    pub settling_time: f64,
+    /// Whether wall shear stress is asked for.
+    pub wall_metrics: bool,
     /// Peak Reynolds number at the inlet.
     pub reynolds_peak: f64,
     /// Womersley number at the inlet, for pulsatile flow.
@@ -66,8 +62,9 @@ impl Plan {
         let scene = &case.scene;
         let supported::PlannedBlood { density, viscosity, rheology } = supported::blood(scene)?;
         let ramp_default = scene.run.period.map_or(DEFAULT_RAMP, |period| DEFAULT_RAMP.max(0.1 * period));
-        let mut openings = planned_openings(case, ramp_default)?;
+        let mut openings = conditions::plan(case, ramp_default)?;
         start::periodic(case, &mut openings)?;
+        let period = timing::period(scene, &openings);
         let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
 
         let flow = estimate::Flow::new(
@@ -140,6 +137,9 @@ impl Plan {
             isa,
             ramp,
             end_time: scene.run.end_time,
+            period,
+            settling_time: timing::settling(&case.vessel, &openings, &flow, viscosity / density),
+            wall_metrics: scene.output.fields.iter().any(|f| supported::is_shear(*f)),
             reynolds_peak: flow.reynolds_peak,
             womersley,
             effects: supported::effects(scene, &openings),
@@ -158,86 +158,4 @@ fn inlet_ramp(condition: &Condition) -> Option<f64> {
         Condition::Velocity { mean, .. } => Some(mean.ramp),
         _ => None,
     }
-}
-
-fn planned_openings(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, DriverError> {
-    let scene = &case.scene;
-    let mut problems = Vec::new();
-    let mut planned = Vec::new();
-    for (k, opening) in case.vessel.openings.iter().enumerate() {
-        let Some(spec) = case.scene_opening[k].map(|s| &scene.openings[s]) else {
-            let c: DVec3 = opening.center / case.vessel.unit.metres();
-            problems.push(format!(
-                "{}: the surface has an opening near [{:.3}, {:.3}, {:.3}] that no `[[opening]]` speaks of; \
-                 add one with that `near`",
-                scene.file.display(),
-                c.x,
-                c.y,
-                c.z
-            ));
-            continue;
-        };
-        let profile = |p: vaso_scene::Profile| match p {
-            vaso_scene::Profile::Plug => Profile::Plug,
-            vaso_scene::Profile::Parabolic => Profile::Parabolic,
-            vaso_scene::Profile::FullyDeveloped => Profile::FullyDeveloped,
-            vaso_scene::Profile::Womersley => Profile::Womersley,
-        };
-        let condition = match &spec.condition {
-            vaso_scene::Condition::Velocity { profile: p, value } => {
-                signal(value, 1.0, spec.ramp.unwrap_or(ramp))
-                    .map(|mean| Condition::Velocity { profile: profile(*p), mean })
-            }
-            vaso_scene::Condition::Flow { profile: p, value } => {
-                signal(value, 1.0 / opening.area, spec.ramp.unwrap_or(ramp))
-                    .map(|mean| Condition::Velocity { profile: profile(*p), mean })
-            }
-            vaso_scene::Condition::Pressure { value } => {
-                signal(value, 1.0, spec.ramp.unwrap_or(0.0)).map(|value| Condition::Pressure { value })
-            }
-            &vaso_scene::Condition::Resistance { resistance, distal_pressure } => {
-                Ok(Condition::Resistance { resistance, distal_pressure })
-            }
-            &vaso_scene::Condition::Windkessel {
-                proximal_resistance,
-                distal_resistance,
-                compliance,
-                initial_pressure,
-                distal_pressure,
-                periodic_start: _,
-            } => {
-                let model =
-                    Windkessel { proximal_resistance, compliance, distal_resistance, distal_pressure };
-                Ok(Condition::Windkessel { model, initial_pressure })
-            }
-        };
-        let is_sound = |c: Condition| c.validate().map_err(|e| e.to_string()).map(|()| c);
-        match condition.and_then(is_sound) {
-            Ok(condition) => {
-                planned.push(PlannedOpening { name: spec.name.clone(), opening: opening.clone(), condition });
-            }
-            Err(text) => problems.push(format!("{}: `opening.{}`: {text}", scene.file.display(), spec.name)),
-        }
-    }
-    if problems.is_empty() && !planned.iter().any(|o| o.condition.sets_pressure()) {
-        problems.push(format!(
-            "{}: all openings prescribe a velocity, so nothing sets the pressure and a mismatch of the flows would \
-             pile up; make one an outlet with `condition = \"pressure\"`, `\"resistance\"` or `\"windkessel\"`",
-            scene.file.display()
-        ));
-    }
-    if problems.is_empty() { Ok(planned) } else { Err(DriverError::Input { problems }) }
-}
-
-fn signal(drive: &Drive, scale: f64, ramp: f64) -> Result<Signal, String> {
-    let source = match drive {
-        Drive::Constant(value) => Source::Constant(value * scale),
-        Drive::Waveform(table) => {
-            let value = table.value.iter().map(|v| v * scale).collect();
-            let wave = Waveform::new(table.time.clone(), value, table.period)
-                .map_err(|e| format!("{}: {e}", table.file.display()))?;
-            Source::Waveform(wave)
-        }
-    };
-    Ok(Signal { source, ramp })
 }

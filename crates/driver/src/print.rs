@@ -158,12 +158,14 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// The stages with what they cost.
+/// The stages that ran, with what they cost.
 pub fn ledger(ledger: &Ledger, particle_substeps: u64) -> String {
     let total = ledger.total();
     let mut out = String::new();
-    for stage in Stage::ALL {
-        let spent = ledger.seconds(stage);
+    for (stage, spent) in Stage::ALL.map(|s| (s, ledger.seconds(s))) {
+        if spent == 0.0 {
+            continue;
+        }
         let _ = writeln!(
             out,
             "stage    {:<18} {:9.2} s  {:5.1} %  {:6.1} ns a particle and acoustic step",

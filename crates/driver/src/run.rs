@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use vaso_fluid::Real;
-use vaso_io::{IoError, OutputDir, SeriesWriter, Status, Summary};
+use vaso_io::{EndReason, IoError, OutputDir, SeriesWriter, Status, Summary};
 use vaso_scene::Precision;
 
 /// How a command talks to the person.
@@ -89,8 +89,16 @@ fn run_precision<R: Real>(
     let mut results = Results::create(out, case, plan)?;
     let ended = advance(&mut flow, &mut results, case, plan, stop, &mut progress);
     progress.finish();
+    let (ended, settled) = match ended {
+        Ok(settled) => (results.finish(&flow, case), settled),
+        Err(error) => (Err(error), None),
+    };
+    if let Some((_, words)) = &settled {
+        talk.say(&format!("ended early at {:.4} s: {words}", flow.time));
+    }
     let mut summary = results.summary(&mut flow, case, plan, n_wall, started.elapsed().as_secs_f64());
-    let ended = ended.and_then(|()| results.write_frame(&flow, case));
+    summary.end_reason = ended.is_ok().then(|| settled.as_ref().map_or(EndReason::EndTime, |s| s.0));
+    summary.message = settled.map(|s| s.1);
     if ended.is_ok() {
         talk.say(&print::ledger(&flow.ledger, flow.particle_substeps));
     }
@@ -108,6 +116,7 @@ fn run_precision<R: Real>(
     Ok(summary)
 }
 
+/// Goes on to the end, or to where the results say that it has settled; tells why then.
 fn advance<R: Real>(
     flow: &mut Flow<R>,
     results: &mut Results,
@@ -115,13 +124,15 @@ fn advance<R: Real>(
     plan: &Plan,
     stop: &AtomicBool,
     progress: &mut Progress,
-) -> Result<(), DriverError> {
+) -> Result<Option<(EndReason, String)>, DriverError> {
     while flow.time < plan.end_time {
         let stepped = flow.step(plan.end_time);
         if let Err(diverged) = stepped {
             return Err(post_mortem(flow, results, case, diverged));
         }
-        results.after_step(flow, case, plan)?;
+        if let Some(reason) = results.after_step(flow, case, plan)? {
+            return Ok(Some(reason));
+        }
         progress.flow(flow.time, plan.end_time, flow.particle_substeps);
         if stop.load(Ordering::Relaxed) {
             results.write_frame(flow, case)?;
@@ -129,7 +140,7 @@ fn advance<R: Real>(
             return Err(DriverError::Interrupted { time: flow.time, out: results.folder().to_owned() });
         }
     }
-    Ok(())
+    Ok(None)
 }
 
 /// Leaves the broken state beside the results; the series keeps only sound frames.

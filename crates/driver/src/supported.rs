@@ -4,6 +4,7 @@ use crate::bodies::wall_shape;
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::PlannedOpening;
+use crate::timing;
 use vaso_boundary::{Condition, Source};
 use vaso_fluid::Rheology;
 use vaso_generation::Ends;
@@ -46,14 +47,20 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
         refuse("wall.open_ends".into(), seen, "\"collar\"");
     }
     for field in &scene.output.fields {
-        if !matches!(field, Field::Velocity | Field::Pressure | Field::Density) {
-            refuse("output.fields".into(), field.word(), "\"velocity\", \"pressure\", \"density\"");
+        if matches!(field, Field::Displacement | Field::VonMises) {
+            refuse(
+                "output.fields".into(),
+                field.word(),
+                "fields of blood and of the stress it has on the wall",
+            );
         }
     }
-    if scene.run.steady.is_some() {
-        refuse("run.steady".into(), "set", "leave it out and give `run.end_time`");
-    }
     if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
+}
+
+/// Whether a field is wall shear stress or made of it.
+pub(crate) fn is_shear(field: Field) -> bool {
+    field == Field::Wss || field.is_of_a_cycle()
 }
 
 /// Shear rate at which the viscosity of a law stands for all in the numbers of a plan \[1/s\]: that of a large artery.
@@ -134,9 +141,16 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
         scene.blood.as_ref().is_some_and(|b| !matches!(b.viscosity, Viscosity::Newtonian { .. }));
     let either = |name: &str, names: &str, none: &str| {
         let active = !names.is_empty();
-        let reason = if active { format!("at {names}") } else { none.into() };
+        let reason = match active {
+            false => none.into(),
+            true if name.starts_with("metrics.") => names.into(),
+            true => format!("at {names}"),
+        };
         EffectEntry { name: name.into(), on: active, called_for: active, reason, seconds: None, bytes: None }
     };
+    let shear: Vec<&str> = scene.output.fields.iter().filter(|f| is_shear(**f)).map(|f| f.word()).collect();
+    let shear = shear.join(", ");
+    let has_period = timing::period(scene, openings).is_some();
     vec![
         on(
             "blood.pressure",
@@ -170,6 +184,25 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
         either("opening.resistance", &resistances, "no opening has a resistance"),
         either("opening.windkessel", &windkessels, "no opening has a Windkessel"),
         either("opening.waveform", &tables, "all openings are steady"),
+        either("metrics.wall_shear", &shear, "`output.fields` names nothing of it"),
+        either(
+            "metrics.cycles",
+            if has_period { "all openings, over each period" } else { "" },
+            "nothing has a period",
+        ),
+        on(
+            "metrics.energy",
+            "what goes in through the openings against heat and motion: a check of the run".into(),
+        ),
+        either(
+            "metrics.settling",
+            match (scene.run.steady, scene.run.periodicity) {
+                (Some(_), _) => "`run.steady` may end the run early",
+                (None, Some(_)) => "`run.periodicity` may end the run early",
+                (None, None) => "",
+            },
+            "neither `run.steady` nor `run.periodicity` is given",
+        ),
         either(
             "probes",
             &scene.probes.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", "),

@@ -60,14 +60,18 @@ impl WallDistance for RigidDistance {
 /// Band of the distance grid around the wall, in spacings: the support, and what a stray may move.
 const BAND: f64 = 5.0;
 
+/// Cell of the distance grid, in spacings. A straight line between nodes misses a round wall by `cell^2 / 12 R`: with cells of a
+/// spacing 2.7 % of the distance of the first layer at D/20, and ten per cent of the drag on it.
+const CELL: f64 = 0.5;
+
 /// Puts the bodies together: fluid at rest in a rigid wall, with the openings of the plan.
 pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> {
     let spacing = plan.numbers.spacing;
     let Bodies { fluid, wall, .. } = bodies;
     let low = wall.position.iter().fold(DVec3::INFINITY, |a, b| a.min(*b)) - spacing;
     let high = wall.position.iter().fold(DVec3::NEG_INFINITY, |a, b| a.max(*b)) + spacing;
-    let distance =
-        DistanceGrid::build(&SignedDistance::wall(&case.vessel), (low, high), spacing, BAND * spacing);
+    let exact = SignedDistance::wall(&case.vessel);
+    let distance = DistanceGrid::build(&exact, (low, high), CELL * spacing, BAND * spacing);
     let velocity = vec![DVec3::ZERO; wall.position.len()];
     let view =
         WallView { position: &wall.position, velocity: &velocity, depth: &wall.depth, volume: &wall.volume };
@@ -75,6 +79,12 @@ pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> 
     let body =
         Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
     let ports = plan.openings.iter().map(|o| (o.opening.clone(), o.condition.clone())).collect();
-    let openings = Openings::new(ports, &plan.numbers, plan.reference_pressure);
+    let mut openings = Openings::new(ports, &plan.numbers, plan.reference_pressure);
+    for (k, planned) in plan.openings.iter().enumerate() {
+        openings.set_coupling(k, planned.coupling);
+        if let Some(strength) = planned.backflow_damping {
+            openings.set_backflow_damping(k, strength);
+        }
+    }
     Flow::new(body, openings, case.scene.numerics.allow_mach)
 }

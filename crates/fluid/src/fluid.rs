@@ -40,6 +40,13 @@ pub(crate) struct Frozen {
 /// [`Frozen::cap_depth`] away from caps.
 pub(crate) const FAR: f64 = 1e3;
 
+impl Frozen {
+    /// Distance to the wall \[m\]; zero where it is beyond reach.
+    pub(crate) fn wall_distance(&self) -> f64 {
+        if self.inverse_distance > 0.0 { 1.0 / self.inverse_distance } else { 0.0 }
+    }
+}
+
 impl Default for Frozen {
     fn default() -> Self {
         Self {
@@ -207,7 +214,7 @@ impl<R: Real> Fluid<R> {
     }
 
     /// Signed distance to the wall \[m\] and its gradient.
-    pub(crate) fn distance(&self, x: DVec3) -> (f64, DVec3) {
+    pub fn distance(&self, x: DVec3) -> (f64, DVec3) {
         self.wall_distance.sample(x)
     }
 

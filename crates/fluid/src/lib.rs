@@ -2,6 +2,7 @@
 
 mod acoustic;
 pub mod cap;
+pub mod energy;
 pub mod fluid;
 pub mod law;
 pub mod numbers;
@@ -13,6 +14,7 @@ mod viscosity;
 pub mod wall;
 
 pub use cap::CapZone;
+pub use energy::Energy;
 pub use fluid::Fluid;
 pub use numbers::Numbers;
 pub use rheology::Rheology;

@@ -1,6 +1,7 @@
 //! Viscous acceleration, and the sums with corrected gradients that read the same neighbours.
 
 use crate::fluid::{Fluid, Frozen, numbered};
+use crate::law::near_wall::{self, NearWall};
 use crate::law::offset::Offset;
 use crate::law::thinning::{self, ThinningViscosity};
 use crate::law::viscosity::{FLUID_SUMS, FluidViscosity, WALL_SUMS, WallViscosity};
@@ -15,8 +16,7 @@ impl<R: Real> Fluid<R> {
     /// [`Self::summation`] before it. With [`Numbers::rheology`](crate::Numbers::rheology)
     /// [`Self::shear_thinning`] has to follow, in any case [`Self::offsets`].
     pub fn viscosity(&mut self) {
-        let n = self.state.len();
-        self.strain.resize(n, [0.0; 6]);
+        self.near_wall();
         // The wall law wants the inverse distance where the other laws want the pressure.
         let frozen = &self.frozen;
         self.current
@@ -64,16 +64,54 @@ impl<R: Real> Fluid<R> {
                 for k in 0..frozen.len() {
                     let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
                     let rho = rho0 + density_change[c * CHUNK + k];
-                    let drag = DVec3::new(f[3] + w[0], f[4] + w[1], f[5] + w[2]);
+                    let depths = w[12] / frozen.inverse_distance.max(f64::MIN_POSITIVE) + w[13];
+                    let [bx, by, bz, ..] = strain[k];
+                    let wall = DVec3::new(w[0], w[1], w[2]) - depths * DVec3::new(bx, by, bz);
+                    let drag = DVec3::new(f[3], f[4], f[5]) + wall;
                     // With a law of the shear rate, what fluid pairs add is found anew once it is known.
                     frozen.acceleration = match rheology {
                         None => -gradient * mu / (support * rho) * drag,
-                        Some(_) => -gradient / (support * rho) * DVec3::new(w[0], w[1], w[2]),
+                        Some(_) => -gradient / (support * rho) * wall,
                     };
                     let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
                     set_gradient_sums(frozen, neighbours);
                     let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
                     strain[k] = scaled_strain(&raw, frozen, 0.5 * support);
+                }
+            });
+    }
+
+    /// Finds how the velocity bends near the wall, the `b` of [`NearWall`] \[1/(m s)\]. It stands in the first three places of the
+    /// strain until that is found.
+    fn near_wall(&mut self) {
+        let support = self.kernel.support();
+        self.strain.clear();
+        self.strain.resize(self.state.len(), [0.0; 6]);
+        let frozen = &self.frozen;
+        self.current
+            .as_mut_slice()
+            .par_iter_mut()
+            .zip(frozen)
+            .with_min_len(1024)
+            .for_each(|(record, frozen)| record[7] = R::pack(frozen.wall_distance() / support));
+        let (isa, current, velocity) = (self.isa, &self.current, &self.state.velocity);
+        let gather =
+            Gather { frame: &self.frame, own: current, other: current, own_second: None, other_second: None };
+        (self.strain.par_chunks_mut(CHUNK), self.rows.chunks(), self.wall.fluid_rows.chunks())
+            .into_par_iter()
+            .enumerate()
+            .filter(|(_, (_, _, wall_row))| !wall_row.has_no_pairs())
+            .for_each(|(c, (bend, row, wall_row))| {
+                let mut sums = [[0.0; near_wall::SUMS]; CHUNK];
+                sweep(isa, &NearWall, &gather, numbered(row, c), Store::None, &mut sums);
+                for k in (0..bend.len()).filter(|&k| !wall_row.is_row_empty(k)) {
+                    let i = c * CHUNK + k;
+                    let s = frozen[i].wall_distance() / support;
+                    let volume = current.as_slice()[i][3].widen();
+                    near_wall::add_own(&mut sums[k], s, volume, velocity[i].to_array());
+                    // The wall is at rest.
+                    let b = near_wall::curvature(&sums[k], [0.0; 3]);
+                    bend[k][..3].copy_from_slice(&b.map(|b| b / (support * support)));
                 }
             });
     }

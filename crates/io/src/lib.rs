@@ -4,6 +4,7 @@ mod archive;
 mod atomic;
 mod cache;
 mod check;
+mod cycles;
 mod error;
 mod generated;
 mod hdf5;
@@ -14,17 +15,25 @@ pub mod schema;
 mod series;
 mod summary;
 mod table;
+mod wall;
 
 pub use archive::Archive;
 pub use atomic::write as write_whole;
 pub use cache::{Cache, CacheKey, KeyBuilder};
 pub use check::{CheckReport, EffectEntry, Numbers, OpeningEntry, Predicted, SurfaceReport};
+pub use cycles::{
+    CycleSummary, EndReason, EnergySummary, OpeningCycleSummary, PeriodicitySummary, PressureDropSummary,
+};
 pub use error::IoError;
 pub use generated::{
     Blocks, CompareReport, ComparedGenerator, Extrusion, Histogram, IntersectionEntry, ParticlesReport,
     Quality, ShellReport, WallReport,
 };
 pub use output::OutputDir;
-pub use series::{FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, read_series_info};
+pub use series::{
+    FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, SurfaceField, SurfaceFrame,
+    SurfaceMesh, SurfaceSeriesWriter, read_series_info,
+};
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};
+pub use wall::{Distribution, LOW_TAWSS, WallSummary};

@@ -14,6 +14,9 @@ pub const FIELDS: &[(&str, &str)] = &[
     (TAWSS, "Pa"),
     (OSI, "1"),
     (RRT, "1/Pa"),
+    (ECAP, "1/Pa"),
+    (TRANSVERSE_WSS, "Pa"),
+    (PEAK_WSS, "Pa"),
     (NORMAL, "1"),
     (THICKNESS, "m"),
     (VOLUME, "m^3"),
@@ -45,6 +48,12 @@ pub const TAWSS: &str = "TAWSS";
 pub const OSI: &str = "OSI";
 /// Relative residence time \[1/Pa\].
 pub const RRT: &str = "RRT";
+/// Endothelial cell activation potential \[1/Pa\].
+pub const ECAP: &str = "ECAP";
+/// Time average of the wall shear stress across its mean direction \[Pa\].
+pub const TRANSVERSE_WSS: &str = "TransverseWSS";
+/// Largest magnitude of the wall shear stress in a cycle \[Pa\].
+pub const PEAK_WSS: &str = "PeakWSS";
 /// Unit normal of the wall.
 pub const NORMAL: &str = "Normal";
 /// Thickness of a shell \[m\].

@@ -5,7 +5,9 @@
 //! its end, whatever the end is.
 
 use crate::check::{EffectEntry, Numbers, OpeningEntry, SurfaceReport};
+use crate::cycles::{CycleSummary, EndReason, EnergySummary};
 use crate::json;
+use crate::wall::WallSummary;
 use serde::{Deserialize, Serialize};
 
 /// `summary.json`: the outcome of a run.
@@ -48,6 +50,18 @@ pub struct Summary {
     pub openings: Vec<OpeningSummary>,
     /// Every effect the program knows.
     pub effects: Vec<EffectEntry>,
+    /// Why a completed run came to its end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end_reason: Option<EndReason>,
+    /// Its whole cycles, in order; absent without a period.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cycles: Vec<CycleSummary>,
+    /// Where the energy went; absent where no account was kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergySummary>,
+    /// Stresses of the wall; absent where they were not asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<WallSummary>,
     /// The geometry audit.
     #[serde(default)]
     pub surface: Option<SurfaceReport>,

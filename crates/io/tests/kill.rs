@@ -6,7 +6,9 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
-use vaso_io::{FrameData, SeriesReader, SeriesWriter};
+use vaso_io::{
+    FrameData, SeriesReader, SeriesWriter, SurfaceField, SurfaceFrame, SurfaceMesh, SurfaceSeriesWriter,
+};
 
 const FOLDER: &str = "VASO_KILL_TEST_FOLDER";
 const TRIALS: u64 = 24;
@@ -38,16 +40,62 @@ fn writes_until_killed() {
     }
 }
 
+/// Frame `step` of a surface whose points stay and whose `TAWSS` comes every fifth frame.
+fn expected_surface(step: usize) -> FrameData {
+    let tawss = if step < 4 { f64::INFINITY } else { ((step + 1) / 5) as f64 };
+    FrameData {
+        time: step as f64,
+        position: expected(0).position,
+        scalars: vec![("TAWSS".into(), vec![tawss; 3000])],
+        vectors: vec![("WSS".into(), (0..3000).map(|i| DVec3::splat((i * step % 1000) as f64)).collect())],
+        ids: None,
+    }
+}
+
+/// The child for a surface.
+#[test]
+#[ignore = "started and killed by `a_surface_series_survives_a_kill_at_any_moment`"]
+fn writes_a_surface_until_killed() {
+    let Some(folder) = std::env::var_os(FOLDER) else { return };
+    let path = Path::new(&folder).join("wall.vtkhdf");
+    let points = expected(0).position;
+    let triangles: Vec<[u32; 3]> = (0..2998).map(|k| [k, k + 1, k + 2]).collect();
+    let mesh = SurfaceMesh { points: &points, triangles: &triangles };
+    let field =
+        |name, components| SurfaceField { name, components, unit: "Pa", definition: "", citation: "" };
+    let fields = [field("WSS", 3), field("TAWSS", 1)];
+    let mut series = SurfaceSeriesWriter::continue_at(&path, mesh, &fields, f64::INFINITY).unwrap();
+    for step in series.len().. {
+        let frame = expected_surface(step);
+        let ends_a_cycle = step == 0 || step % 5 == 4;
+        let mut view = SurfaceFrame { time: frame.time, ..SurfaceFrame::default() };
+        view.vectors.push(("WSS", frame.vector("WSS").unwrap()));
+        view.scalars.extend(ends_a_cycle.then(|| ("TAWSS", frame.scalar("TAWSS").unwrap())));
+        series.append(&view).unwrap();
+        println!("done {}", step + 1);
+        std::io::stdout().flush().unwrap();
+    }
+}
+
 #[test]
 fn the_public_file_survives_a_kill_at_any_moment() {
+    survives("writes_until_killed", "fluid.vtkhdf", expected);
+}
+
+#[test]
+fn a_surface_series_survives_a_kill_at_any_moment() {
+    survives("writes_a_surface_until_killed", "wall.vtkhdf", expected_surface);
+}
+
+fn survives(child: &str, file: &str, expected: fn(usize) -> FrameData) {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("fluid.vtkhdf");
+    let path = folder.path().join(file);
     let mut frames_seen = 0;
     for trial in 0..TRIALS {
         // Delays that fall into different phases of an append: golden-ratio steps between 2 and 120 ms after
         // the first frame of this trial.
         let delay = Duration::from_secs_f64(0.002 + 0.118 * (trial as f64 * 0.618_034).fract());
-        let promised = frames_promised_before_kill(folder.path(), delay).max(frames_seen);
+        let promised = frames_promised_before_kill(child, folder.path(), delay).max(frames_seen);
 
         let reader = SeriesReader::open(&path).unwrap_or_else(|error| panic!("trial {trial}: {error}"));
         let found = reader.info().times.len();
@@ -65,9 +113,9 @@ fn the_public_file_survives_a_kill_at_any_moment() {
 }
 
 /// Runs the child, kills it `delay` after its first frame, and returns how many frames it said are in the file.
-fn frames_promised_before_kill(folder: &Path, delay: Duration) -> usize {
+fn frames_promised_before_kill(child: &str, folder: &Path, delay: Duration) -> usize {
     let mut child = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "writes_until_killed", "--ignored", "--nocapture"])
+        .args(["--exact", child, "--ignored", "--nocapture"])
         .env(FOLDER, folder)
         .stdout(Stdio::piped())
         .spawn()

@@ -2,8 +2,10 @@
 
 use serde_json::{Value, json};
 use vaso_io::{
-    CheckReport, EffectEntry, Numbers, OpeningEntry, OpeningSummary, ParticleCounts, ParticlesReport,
-    Predicted, Quality, Stability, Status, StepCounts, Summary, SurfaceReport,
+    CheckReport, CycleSummary, Distribution, EffectEntry, EndReason, EnergySummary, Numbers,
+    OpeningCycleSummary, OpeningEntry, OpeningSummary, ParticleCounts, ParticlesReport, PeriodicitySummary,
+    Predicted, PressureDropSummary, Quality, Stability, Status, StepCounts, Summary, SurfaceReport,
+    WallSummary,
 };
 
 /// Every key of `promised` is in `written` with a value of the same kind; arrays are compared by their first
@@ -111,6 +113,72 @@ fn summary_has_the_promised_names() {
     holds(&written, &promised, "summary");
     assert_eq!(written["status"], "completed");
     assert_eq!(written["particles"]["fluid"], 110_023);
+}
+
+fn pulsatile_summary() -> Summary {
+    let opening = OpeningCycleSummary {
+        name: "ica".into(),
+        mean_flow_m3_s: 4e-6,
+        flow_split: Some(0.67),
+        pulsatility_index: Some(1.1),
+        ..Default::default()
+    };
+    let drop = PressureDropSummary {
+        proximal: "cca".into(),
+        distal: "ica".into(),
+        mean_pa: 120.0,
+        fractional_flow_reserve: Some(0.99),
+        ..Default::default()
+    };
+    let cycle = CycleSummary {
+        index: 1,
+        start_s: 0.8,
+        end_s: 1.6,
+        openings: vec![opening],
+        periodicity: Some(PeriodicitySummary { flow: 0.004, pressure: 0.02, wall_shear: Some(0.01) }),
+        mass_balance_error: Some(1e-3),
+        pressure_drops: vec![drop],
+        mean_tawss_pa: Some(1.2),
+    };
+    let tawss = Distribution { mean: 1.2, percentile_1: 0.1, median: 1.0, percentile_99: 4.0, missing: 0.0 };
+    Summary {
+        end_reason: Some(EndReason::Periodic),
+        cycles: vec![cycle],
+        energy: Some(EnergySummary { inflow_j: 1e-3, relative_residual: Some(0.03), ..Default::default() }),
+        wall: Some(WallSummary { points: 5000, tawss_pa: Some(tawss), cycle: Some(1), ..Default::default() }),
+        ..summary()
+    }
+}
+
+#[test]
+fn cycles_energy_and_wall_stand_in_the_summary_where_there_are_any() {
+    let promised = json!({
+        "end_reason": "periodic",
+        "cycles": [{"index": 1, "start_s": 0.8, "end_s": 1.6, "mass_balance_error": 1e-3, "mean_tawss_pa": 1.2,
+            "openings": [{"name": "ica", "mean_flow_m3_s": 4e-6, "min_flow_m3_s": 0.0, "max_flow_m3_s": 0.0,
+                "mean_pressure_pa": 0.0, "systolic_pressure_pa": 0.0, "diastolic_pressure_pa": 0.0,
+                "pulse_pressure_pa": 0.0, "flow_split": 0.67, "pulsatility_index": 1.1}],
+            "periodicity": {"flow": 0.004, "pressure": 0.02, "wall_shear": 0.01},
+            "pressure_drops": [{"proximal": "cca", "distal": "ica", "mean_pa": 120.0, "min_pa": 0.0, "max_pa": 0.0,
+                "fractional_flow_reserve": 0.99}]}],
+        "energy": {"inflow_j": 1e-3, "throughput_j": 0.0, "dissipated_j": 0.0, "kinetic_change_j": 0.0,
+            "residual_j": 0.0, "relative_residual": 0.03},
+        "wall": {"points": 5000, "triangles": 0, "area_m2": 0.0, "counted_area_m2": 0.0, "cycle": 1,
+            "tawss_pa": {"mean": 1.2, "percentile_1": 0.1, "median": 1.0, "percentile_99": 4.0, "missing": 0.0}}
+    });
+    let written = parsed(&pulsatile_summary().to_json());
+    holds(&written, &promised, "summary");
+    assert_eq!(written["end_reason"], "periodic");
+    assert!(written["cycles"][0]["openings"][0].get("resistive_index").is_none());
+
+    let steady = parsed(&summary().to_json());
+    for name in ["end_reason", "cycles", "energy", "wall"] {
+        assert!(steady.get(name).is_none(), "{name} is there without a value");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("summary.json");
+    pulsatile_summary().write(&path).unwrap();
+    assert_eq!(Summary::read(&path).unwrap(), pulsatile_summary());
 }
 
 #[test]

@@ -40,7 +40,7 @@ fn frames_of_changing_size_come_back() {
     let reader = SeriesReader::open(&path).unwrap();
     assert_eq!(reader.info().counts, [3, 4096, 0, 9001, 4095, 4097, 20_000]);
     let fields: Vec<_> =
-        reader.info().fields.iter().map(|f| (f.name.as_str(), f.components, f.unit)).collect();
+        reader.info().fields.iter().map(|f| (f.name.as_str(), f.components, f.unit.as_deref())).collect();
     assert_eq!(
         fields,
         [

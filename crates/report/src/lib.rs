@@ -3,6 +3,7 @@
 mod chart;
 mod color;
 mod compare;
+mod cycles;
 mod drawing;
 mod error;
 mod histogram;
@@ -13,6 +14,7 @@ mod report;
 mod scale;
 mod sections;
 mod vessel;
+mod wall;
 
 pub use compare::{ComparedParticles, slab, write_comparison};
 pub use drawing::{Drawing, Pen, Plane, sheet};

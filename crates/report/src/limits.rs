@@ -1,7 +1,7 @@
 //! What a run does not prove, said next to its results.
 
 use crate::html::prose;
-use vaso_io::{Status, Summary};
+use vaso_io::{EndReason, PressureDropSummary, Status, Summary};
 
 /// The list of limits, those that always hold and those this run brought on itself.
 pub(crate) fn limits(summary: &Summary) -> String {
@@ -46,9 +46,27 @@ fn limits_of(summary: &Summary) -> Vec<String> {
          diameters of an opening reflect them."
             .to_owned(),
     );
+    if let Some(limit) = unlike_cycles(summary) {
+        limits.push(limit);
+    }
+    if summary.wall.is_some() {
+        limits.push(
+            "Wall shear stress is fitted to the particles within about 2.6 spacings of the wall. Where the boundary layer is \
+             not much thicker than that it lags behind the flow and is too weak; `docs/theory/metrics.md` says by how much."
+                .to_owned(),
+        );
+    }
+    let has_reserve = |drop: &PressureDropSummary| drop.fractional_flow_reserve.is_some();
+    if summary.cycles.iter().flat_map(|cycle| &cycle.pressure_drops).any(has_reserve) {
+        limits.push(
+            "Fractional flow reserve is a clinical number only where the pressures are physiological and the flow is that of \
+             hyperaemia; here it is the ratio of two computed pressures."
+                .to_owned(),
+        );
+    }
     limits.push(
-        "Pictures show one instant, with colours clipped at the outer per cent of the values; \
-         the numbers are in the files beside this page."
+        "Pictures show one instant, and those of indices the last whole cycle, with colours clipped at the outer per cent of \
+         the values; the numbers are in the files beside this page."
             .to_owned(),
     );
     limits.push(
@@ -60,10 +78,48 @@ fn limits_of(summary: &Summary) -> Vec<String> {
     limits
 }
 
+/// Largest change between cycles that still count as alike, in per cent.
+const ALIKE: f64 = 1.0;
+
+/// Says that the last cycle was not like the one before, or that there was none to compare it with.
+fn unlike_cycles(summary: &Summary) -> Option<String> {
+    let last = summary.cycles.last()?;
+    if summary.end_reason == Some(EndReason::Periodic) {
+        return None;
+    }
+    let Some(change) = last.periodicity else {
+        return Some(
+            "There is one whole cycle only, so nothing says whether the next would be like it.".to_owned(),
+        );
+    };
+    let largest = 100.0 * change.flow.max(change.pressure);
+    (largest > ALIKE).then(|| {
+        format!(
+            "The last two cycles differ by up to {} % of the range of a flow or pressure: means and indices have not \
+             settled.",
+            crate::scale::number(largest, 2)
+        )
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vaso_io::EffectEntry;
+    use vaso_io::{CycleSummary, EffectEntry, PeriodicitySummary};
+
+    #[test]
+    fn cycles_that_are_not_alike_are_said() {
+        let cycle = |flow| CycleSummary {
+            periodicity: Some(PeriodicitySummary { flow, pressure: 0.002, wall_shear: None }),
+            ..Default::default()
+        };
+        let said = |cycles: Vec<CycleSummary>| unlike_cycles(&Summary { cycles, ..Default::default() });
+        assert_eq!(said(Vec::new()), None);
+        assert_eq!(said(vec![cycle(0.2), cycle(0.004)]), None);
+        let text = said(vec![cycle(0.004), cycle(0.031)]).unwrap();
+        assert!(text.contains("3.1 %"), "{text}");
+        assert!(said(vec![CycleSummary::default()]).unwrap().contains("one whole cycle"));
+    }
 
     #[test]
     fn what_the_run_left_out_is_said() {

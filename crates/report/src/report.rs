@@ -3,7 +3,7 @@
 use crate::ReportError;
 use crate::chart::{Curve, chart};
 use crate::html::{self, escape, prose, section};
-use crate::{limits, sections, vessel};
+use crate::{cycles, limits, sections, vessel, wall};
 use std::path::{Path, PathBuf};
 use vaso_io::{Summary, TableData, read_table, write_whole};
 
@@ -31,7 +31,9 @@ fn page(out: &Path, summary: &Summary) -> String {
             "Openings",
             &(waveforms(&out.join("openings.csv")) + &sections::openings(summary)),
         ),
-        section("stability", "Stability", &sections::stability(summary)),
+        section("cycles", "Cycles", &cycles::cycles(summary)),
+        section("wall", "The wall", &wall::wall(out, summary)),
+        section("stability", "Stability", &(sections::stability(summary) + &cycles::energy(summary))),
         section("cost", "Plan and cost", &sections::effects(summary)),
         section("scene", "Scene", &sections::scene(summary)),
         section("limits", "What this does not prove", &limits::limits(summary)),

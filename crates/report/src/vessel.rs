@@ -11,9 +11,9 @@ use std::path::Path;
 use vaso_io::{FrameData, SeriesReader};
 
 /// Width of the pictures \[pixels\]: twice what a page shows, for sharp screens.
-const WIDTH: u32 = 1400;
+pub(crate) const WIDTH: u32 = 1400;
 
-/// Figures of the last frames of the fluid and wall series in a folder; a note where there is nothing to draw.
+/// Figures of the last frame of the fluid series in a folder; a note where there is nothing to draw.
 pub(crate) fn figures(out: &Path, spacing: f64) -> String {
     let options = |quantity, style| PictureOptions { quantity, style, width: WIDTH, spacing: Some(spacing) };
     let mut html = String::new();
@@ -33,12 +33,6 @@ pub(crate) fn figures(out: &Path, spacing: f64) -> String {
                 ),
             ],
         );
-    }
-    let wall = out.join("wall.vtkhdf");
-    let has_shear = SeriesReader::open(&wall)
-        .is_ok_and(|reader| reader.info().fields.iter().any(|field| field.name == vaso_io::schema::WSS));
-    if has_shear {
-        html += &series(&wall, &[("Wall shear stress", options(Quantity::WallShear, Style::Outside))]);
     }
     html
 }
@@ -72,11 +66,21 @@ pub(crate) fn figure(
     when: &str,
     options: &PictureOptions,
 ) -> Result<String, ReportError> {
-    let drawn = draw(frame, path, options)?;
-    let (quantity, unit) = (options.quantity.name(), options.quantity.unit());
+    let what = format!("{} particles", frame.position.len());
+    enclosed(&draw(frame, path, options)?, title, when, &what, options.quantity)
+}
+
+/// A picture that is drawn already as a figure; `what` is coloured in it.
+pub(crate) fn enclosed(
+    drawn: &VesselPicture,
+    title: &str,
+    when: &str,
+    what: &str,
+    quantity: Quantity,
+) -> Result<String, ReportError> {
+    let (name, unit) = (quantity.name(), quantity.unit());
     let alternative = format!(
-        "{title} {when}: {} particles coloured by {quantity} from {} to {} {unit}",
-        frame.position.len(),
+        "{title} {when}: {what} coloured by {name} from {} to {} {unit}",
         number(drawn.low, 3),
         number(drawn.high, 3)
     );
@@ -88,8 +92,8 @@ pub(crate) fn figure(
         drawn.picture.height,
         escape(&alternative),
         STANDARD.encode(drawn.picture.to_png()?),
-        color_bar(&drawn, quantity, unit),
-        ruler(&drawn)
+        color_bar(drawn, quantity.short_name(), unit),
+        ruler(drawn)
     ))
 }
 

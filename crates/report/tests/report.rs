@@ -3,7 +3,7 @@
 mod synthetic;
 
 use std::path::Path;
-use vaso_io::{Status, Summary};
+use vaso_io::{Status, Summary, SurfaceField, SurfaceFrame, SurfaceMesh, SurfaceSeriesWriter};
 use vaso_report::picture::{PictureOptions, Quantity, Style, draw};
 use vaso_report::{ReportError, render_vessel_png, write_report};
 
@@ -32,8 +32,8 @@ fn a_finished_run_has_every_part_and_needs_nothing_else() {
         assert!(!html.contains(needle), "the page contains {needle}");
     }
     assert_eq!(html.matches("src=\"").count(), html.matches("src=\"data:image/png;base64,").count());
-    assert_eq!(html.matches("<img ").count(), 3);
-    assert_eq!(html.matches("alt=\"").count(), 3);
+    assert_eq!(html.matches("<img ").count(), 6);
+    assert_eq!(html.matches("alt=\"").count(), 6);
     assert_eq!(html.matches("class=\"chart\"").count(), 2);
 
     let words = words(&html);
@@ -49,6 +49,15 @@ fn a_finished_run_has_every_part_and_needs_nothing_else() {
         "What this does not prove",
         "The wall does not move",
         "reversed all triangles",
+        "the last two were alike",
+        "Time-averaged wall shear stress",
+        "over cycle 2, from both sides",
+        "1/T int |tau| dt",
+        "He, Ku 1996",
+        "inlet → branch &lt;left&gt;",
+        "119.3 / 77.26",
+        "Fractional flow reserve is a clinical number only where",
+        "numerical dissipation",
     ] {
         assert!(words.contains(part), "\"{part}\" is missing from:\n{words}");
     }
@@ -91,6 +100,29 @@ fn a_run_that_broke_down_still_gets_its_page() {
 }
 
 #[test]
+fn a_wall_whose_first_cycle_has_not_ended_shows_what_there_is() {
+    let out = tempfile::tempdir().unwrap();
+    synthetic::write(out.path()).unwrap();
+    let path = out.path().join("wall.vtkhdf");
+    let reader = vaso_io::SeriesReader::open(&path).unwrap();
+    let (frame, triangles) = (reader.frame(2).unwrap(), reader.triangles().unwrap());
+    drop(reader);
+    let field =
+        |name, components| SurfaceField { name, components, unit: "Pa", definition: "", citation: "" };
+    let mesh = SurfaceMesh { points: &frame.position, triangles: &triangles };
+    let mut series = SurfaceSeriesWriter::create(&path, mesh, &[field("WSS", 3), field("TAWSS", 1)]).unwrap();
+    let vectors = vec![("WSS", frame.vector("WSS").unwrap())];
+    series.append(&SurfaceFrame { time: 0.2, vectors, ..SurfaceFrame::default() }).unwrap();
+    drop(series);
+    let html = page(out.path());
+    assert_eq!(html.matches("<img ").count(), 4);
+    assert!(!html.contains("No picture: "), "{}", words(&html));
+
+    std::fs::write(&path, "torn").unwrap();
+    assert!(page(out.path()).contains("No picture: "));
+}
+
+#[test]
 fn without_a_summary_there_is_no_page() {
     let out = tempfile::tempdir().unwrap();
     let error = write_report(out.path()).unwrap_err();
@@ -126,6 +158,8 @@ fn pictures_stand_alone_as_png() {
     let png = render_vessel_png(&series, Some(0.2), &options).unwrap();
     assert_eq!(&png[1..4], b"PNG");
     let shear = PictureOptions { quantity: Quantity::WallShear, ..options };
+    let wall = render_vessel_png(&out.path().join("wall.vtkhdf"), None, &shear).unwrap();
+    assert_eq!(&wall[1..4], b"PNG");
     let error = render_vessel_png(&series, None, &shear).unwrap_err().to_string();
     assert!(error.contains("`WSS`") && error.contains("Pressure"), "{error}");
 }

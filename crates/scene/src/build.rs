@@ -191,11 +191,20 @@ impl Builder<'_> {
             _ => {}
         }
         let of_cycles = || cycles.map_or(f64::NAN, f64::from) * period.unwrap_or(f64::NAN);
-        Run {
+        let run = Run {
             end_time: section.optional_number("end_time").unwrap_or_else(of_cycles),
             period,
             cycles,
             steady: section.optional_number("steady"),
+            periodicity: section.optional_number("periodicity"),
+        };
+        if section.has("periodicity") && !section.has("period") {
+            let message = "needs `period`, the length of the cycles it compares";
+            self.report(section, "periodicity", message, "", "give the heart period, or take `steady`");
+        } else if run.periodicity.is_some() && !run.holds_cycles(2) {
+            let message = "compares two cycles, and the run ends before there are two";
+            self.report(section, "periodicity", message, "", "let the run last for more cycles");
         }
+        run
     }
 }

@@ -80,6 +80,7 @@ impl Builder<'_> {
         let probes = root.sections("probe").iter().map(|section| self.probe(section)).collect();
         let output =
             root.section("output").map(|section| self.output(section, &run, root.has("blood"), &wall));
+        self.flow_reserve(root);
         self.unique_names(root.sections("opening"));
         self.unique_names(root.sections("probe"));
         self.outlets(root);
@@ -154,6 +155,33 @@ impl Builder<'_> {
         }
     }
 
+    /// Pairs must be of two openings of the case.
+    fn flow_reserve(&mut self, root: &Section) {
+        let Some(output) = root.section("output") else { return };
+        let names: Vec<&str> = root.sections("opening").iter().filter_map(|s| s.text("name")).collect();
+        let key = "fractional_flow_reserve";
+        for pair in output.pairs(key) {
+            if pair[0] == pair[1] {
+                let message = format!("\"{}\" is compared with itself", pair[0]);
+                self.report(
+                    output,
+                    key,
+                    message,
+                    "two different openings",
+                    "name the proximal, then the distal one",
+                );
+            }
+            for name in pair.iter().filter(|name| !names.contains(&name.as_str())) {
+                let known = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+                let advice = match vaso_units::nearest(name, names.iter().copied()) {
+                    Some(near) => format!("did you mean \"{near}\"?"),
+                    None => "name an `[[opening]]` of this file".to_owned(),
+                };
+                self.report(output, key, format!("there is no opening \"{name}\""), known, advice);
+            }
+        }
+    }
+
     fn something_to_simulate(&mut self, root: &Section, wall: &Option<Wall>) {
         if !root.has("blood") && matches!(wall, Some(Wall::Rigid | Wall::RigidShell)) {
             let message = "is missing, and the wall does not move: there is nothing to simulate";
@@ -174,10 +202,13 @@ impl Builder<'_> {
                 Field::Displacement | Field::VonMises => {
                     (elastic || wall.is_none(), "a wall of model \"solid\" or \"shell\"")
                 }
-                Field::Tawss | Field::Osi | Field::Rrt if !blood => (false, "`[blood]`"),
-                Field::Tawss | Field::Osi | Field::Rrt => {
-                    (run.as_ref().is_none_or(|run| run.period.is_some()), "`run.period`")
+                _ if !blood => (false, "`[blood]`"),
+                _ if run.as_ref().is_some_and(|run| run.period.is_none()) => (false, "`run.period`"),
+                // The direction it is across is that of the cycle before.
+                Field::TransverseWss => {
+                    (run.as_ref().is_none_or(|run| run.holds_cycles(2)), "a run of two cycles")
                 }
+                _ => (run.as_ref().is_none_or(|run| run.holds_cycles(1)), "a run of a whole cycle"),
             };
             if !available {
                 let message = format!("the field \"{}\" needs {needs}", field.word());
@@ -195,6 +226,7 @@ impl Builder<'_> {
             table_every: section.optional_number("table_every").unwrap_or(every / 10.0),
             fields,
             checkpoint_every: section.optional_number("checkpoint_every"),
+            fractional_flow_reserve: section.pairs("fractional_flow_reserve").to_vec(),
         }
     }
 }

@@ -52,6 +52,8 @@ pub(crate) enum Kind {
     Choices(&'static [&'static str]),
     /// Three coordinates.
     Point,
+    /// An array of pairs of names.
+    Pairs,
 }
 
 /// What the absence of a key means.
@@ -146,6 +148,7 @@ impl Kind {
             Self::Choice(words) => list(words),
             Self::Choices(words) => format!("an array of {}", list(words)),
             Self::Point => "an array of three numbers".into(),
+            Self::Pairs => "an array of pairs of names".into(),
         }
     }
 

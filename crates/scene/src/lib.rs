@@ -22,10 +22,10 @@ mod words;
 
 pub use error::{Problem, SceneError};
 pub use material::{Blood, OpenEnds, Wall, WallBody};
-pub use opening::{Condition, Drive, Opening, Profile};
+pub use opening::{Condition, Coupling, Drive, Opening, Profile};
 pub use reference::case_reference;
 pub use scene::{
     Field, Generator, Geometry, Lattice, Numerics, Output, Particles, Precision, Probe, Run, Scene, Topology,
 };
-pub use waveform::Waveform;
+pub use waveform::{Interpolation, Waveform};
 pub use words::Word;

@@ -15,6 +15,11 @@ pub struct Opening {
     /// Time over which the prescribed value rises smoothly from zero \[s\]; `None` leaves it to the planner. Always
     /// `None` for outlet models.
     pub ramp: Option<f64>,
+    /// How an outlet model takes up the flow; the default where the condition is none.
+    pub coupling: Coupling,
+    /// How strongly flow that comes in through an outlet model is damped, from 0 (not at all) to 1; `None` where the condition
+    /// is none.
+    pub backflow_damping: Option<f64>,
 }
 
 /// What holds at an opening. Velocity and flow are positive into the vessel, pressures are gauge.
@@ -95,17 +100,54 @@ words! {
 }
 
 words! {
-    /// Shape of the velocity across an opening, with unit mean.
-    pub enum Profile {
-        /// The same everywhere.
+    /// The profiles of the file.
+    pub(crate) enum ProfileKind {
         Plug = "plug",
-        /// Fully developed steady flow through a disc, stretched to the rim.
         Parabolic = "parabolic",
-        /// Fully developed steady flow through a section of the shape of the opening.
+        Power = "power",
         FullyDeveloped = "fully-developed",
-        /// Fully developed pulsatile flow (Womersley 1955), harmonic by harmonic of a periodic waveform.
         Womersley = "womersley",
     }
+}
+
+/// Shape of the velocity across an opening, with unit mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Profile {
+    /// The same everywhere.
+    Plug,
+    /// Fully developed steady flow through a disc, stretched to the rim.
+    Parabolic,
+    /// `(n + 2)/n (1 - s^n)` at the part `s` of the way from the centre to the rim: the parabola for 2, and blunter the larger
+    /// n is.
+    Power {
+        /// n.
+        exponent: f64,
+    },
+    /// Fully developed steady flow through a section of the shape of the opening.
+    FullyDeveloped,
+    /// Fully developed pulsatile flow (Womersley 1955), harmonic by harmonic of a periodic waveform.
+    Womersley,
+}
+
+words! {
+    /// The couplings of the file.
+    pub(crate) enum CouplingKind {
+        Impedance = "impedance",
+        Window = "window",
+    }
+}
+
+/// How an outlet model takes up the flow.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Coupling {
+    /// Every acoustic step, implicitly with the acoustic impedance of the cap.
+    #[default]
+    Impedance,
+    /// Once a window, from the mean flow over it.
+    Window {
+        /// Length of the window \[s\].
+        duration: f64,
+    },
 }
 
 /// A prescribed value, the same at all times or given over time.

@@ -91,6 +91,7 @@ impl Reader<'_> {
                     COORDINATES,
                 ),
             },
+            (Kind::Pairs, Content::List(nodes)) => self.pairs(nodes, kind, shown),
             (_, content) => {
                 match (kind.dimension(), content) {
                     (Some(dimension), Content::Integer(_) | Content::Float(_)) => {
@@ -171,6 +172,30 @@ impl Reader<'_> {
             self.refuse(kind, shown, spot, "is empty", "name something, or remove the key");
         }
         Value::Words(chosen)
+    }
+
+    fn pairs(&mut self, nodes: &[Node], kind: &Kind, shown: &str) -> Value {
+        let mut pairs = Vec::new();
+        for node in nodes {
+            let names = match &node.content {
+                Content::List(names) => names.as_slice(),
+                _ => &[],
+            };
+            let text = |node: &Node| match &node.content {
+                Content::Text(text) => Some(text.clone()),
+                _ => None,
+            };
+            match names {
+                [a, b] if text(a).zip(text(b)).is_some() => {
+                    pairs.extend(text(a).zip(text(b)).map(<[String; 2]>::from))
+                }
+                _ => {
+                    let advice = "write two names in brackets, as in [\"inlet\", \"outlet\"]";
+                    self.refuse(kind, shown, &node.spot, "is not a pair of names", advice);
+                }
+            }
+        }
+        Value::Pairs(pairs)
     }
 
     fn refuse(

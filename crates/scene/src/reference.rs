@@ -19,8 +19,9 @@ An opening or probe is addressed by its name or its number from 0. Where an over
 keys of the file that have no meaning with the new one are passed over.
 
 A waveform is a text file of two columns, time and value, separated by commas, semicolons, tabs or spaces, in SI units
-unless a header says otherwise in brackets: `time [ms], flow [ml/min]`. `#` begins a comment. With `run.period` the
-table holds one period, with or without the first sample repeated at its end; without, it covers the whole run.
+unless its header names others, in brackets as in `time [ms], flow [ml/min]` or by endings as in `time_ms, flow_ml_per_min`,
+or `waveform_unit` does. `#` begins a comment. With `run.period` the table holds one period, with or without the first sample
+repeated at its end; without, it covers the whole run.
 ";
 
 /// The reference as Markdown: every key with its type, default and meaning.

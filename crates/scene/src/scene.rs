@@ -207,6 +207,18 @@ pub struct Run {
     /// End early once the flow of every opening changes by less than this share (from one cycle to the next where
     /// there is a period).
     pub steady: Option<f64>,
+    /// End early once two successive cycles differ by no more than this share in flow and pressure of every opening, and by no
+    /// more than twice it in the time-averaged wall shear stress. With it `cycles` are the most there will be.
+    pub periodicity: Option<f64>,
+}
+
+impl Run {
+    /// Whether so many whole cycles fit into it.
+    pub(crate) fn holds_cycles(&self, count: u32) -> bool {
+        // Times that could not be read are NaN and have been reported.
+        let end = f64::from(count) * self.period.unwrap_or(f64::NAN) * (1.0 - 1e-9);
+        self.end_time.is_nan() || end.is_nan() || self.end_time >= end
+    }
 }
 
 /// What to write and how often; intervals are in simulated time.
@@ -220,6 +232,15 @@ pub struct Output {
     pub fields: Vec<Field>,
     /// Interval of checkpoints \[s\]; `None` writes one at the end or on interruption.
     pub checkpoint_every: Option<f64>,
+    /// Pairs of different openings, proximal and distal by name, whose fractional flow reserve is told.
+    pub fractional_flow_reserve: Vec<[String; 2]>,
+}
+
+impl Field {
+    /// True for fields that exist only at the end of a cycle.
+    pub fn is_of_a_cycle(self) -> bool {
+        matches!(self, Self::Tawss | Self::Osi | Self::Rrt | Self::Ecap | Self::TransverseWss | Self::PeakWss)
+    }
 }
 
 words! {
@@ -243,5 +264,11 @@ words! {
         Osi = "osi",
         /// Relative residence time over a cycle \[1/Pa\].
         Rrt = "rrt",
+        /// Endothelial cell activation potential over a cycle \[1/Pa\].
+        Ecap = "ecap",
+        /// Time average over a cycle of the wall shear stress across its mean direction \[Pa\].
+        TransverseWss = "transverse_wss",
+        /// Largest magnitude of the wall shear stress in a cycle \[Pa\].
+        PeakWss = "peak_wss",
     }
 }

@@ -6,14 +6,15 @@ use vaso_units::dimension::{
 };
 
 use crate::kind::Kind::{
-    Choice, Choices, Count, File, Flag, Name, Number, Point, Quantity, QuantityOr, QuantityOrTable, Table,
-    Tables, Text,
+    Choice, Choices, Count, File, Flag, Name, Number, Pairs, Point, Quantity, QuantityOr, QuantityOrTable,
+    Table, Tables, Text,
 };
 use crate::kind::Presence::{Default, Optional, Required};
 use crate::kind::{Key, Kind, Presence, Range, When};
 use crate::material::{Damping, Ends, MaterialModel, OpenEnds, ViscosityModel, WallModel};
-use crate::opening::{ConditionKind, Profile};
+use crate::opening::{ConditionKind, CouplingKind, ProfileKind};
 use crate::scene::{Field, Lattice, Precision, Topology};
+use crate::waveform::InterpolationKind;
 use crate::words::{Word, words};
 
 words! {
@@ -64,11 +65,17 @@ const FIBERS: &[When] = &[ELASTIC, When { key: "material", words: &["holzapfel-g
 const VELOCITY_IN: &[When] = &[When { key: "condition", words: &["velocity"] }];
 const FLOW_IN: &[When] = &[When { key: "condition", words: &["flow"] }];
 const PRESSURE_AT: &[When] = &[When { key: "condition", words: &["pressure"] }];
-const INFLOW: &[When] = &[When { key: "condition", words: &["velocity", "flow"] }];
-const PRESCRIBED: &[When] = &[When { key: "condition", words: &["velocity", "flow", "pressure"] }];
+const IS_INFLOW: When = When { key: "condition", words: &["velocity", "flow"] };
+const INFLOW: &[When] = &[IS_INFLOW];
+const POWER: &[When] = &[IS_INFLOW, When { key: "profile", words: &["power"] }];
+const IS_PRESCRIBED: When = When { key: "condition", words: &["velocity", "flow", "pressure"] };
+const PRESCRIBED: &[When] = &[IS_PRESCRIBED];
+const FOURIER: &[When] = &[IS_PRESCRIBED, When { key: "interpolation", words: &["fourier"] }];
 const RESISTANCE_AT: &[When] = &[When { key: "condition", words: &["resistance"] }];
 const WINDKESSEL: &[When] = &[When { key: "condition", words: &["windkessel"] }];
-const OUTLET_MODEL: &[When] = &[When { key: "condition", words: &["resistance", "windkessel"] }];
+const IS_MODEL: When = When { key: "condition", words: &["resistance", "windkessel"] };
+const OUTLET_MODEL: &[When] = &[IS_MODEL];
+const WINDOW: &[When] = &[IS_MODEL, When { key: "coupling", words: &["window"] }];
 
 const WAVEFORM_OR_VALUE: Presence = Optional("exactly one of `value` and `waveform` is given");
 
@@ -134,11 +141,15 @@ pub(crate) const KEYS: &[Key] = &[
     key("opening.name", Name, Required, "Its name in all outputs."),
     key("opening.near", Point, Required, "A point near it, in the unit of the surface; the nearest opening is meant."),
     key("opening.condition", Choice(ConditionKind::WORDS), Required, "What holds there."),
-    only(INFLOW, "opening.profile", Choice(Profile::WORDS), Default("parabolic"), "Shape of the velocity across it."),
+    only(INFLOW, "opening.profile", Choice(ProfileKind::WORDS), Default("parabolic"), "Shape of the velocity across it."),
+    only(POWER, "opening.exponent", Number(Range::above(0.0, 100.0)), Required, "Exponent n of the profile (n + 2)/n (1 - s^n): 2 is the parabola, more is blunter."),
     only(VELOCITY_IN, "opening.value", Quantity(VELOCITY, Range::ANY), WAVEFORM_OR_VALUE, "Mean velocity over the cross-section, positive into the vessel."),
     only(FLOW_IN, "opening.value", Quantity(FLOW_RATE, Range::ANY), WAVEFORM_OR_VALUE, "Flow rate, positive into the vessel."),
     only(PRESSURE_AT, "opening.value", Quantity(PRESSURE, Range::ANY), Optional("0 Pa"), "Gauge pressure."),
-    only(PRESCRIBED, "opening.waveform", File, Optional("constant `value`"), "The value over time: a file of two columns, time and value in SI units."),
+    only(PRESCRIBED, "opening.waveform", File, Optional("constant `value`"), "The value over time: a file of two columns, time and value in SI units or those it names."),
+    only(PRESCRIBED, "opening.waveform_unit", Text, Optional("that of the SI, or of the header"), "Unit of the values in the waveform, such as \"ml/s\", where its header names none."),
+    only(PRESCRIBED, "opening.interpolation", Choice(InterpolationKind::WORDS), Default("linear"), "How the waveform goes between its samples: in straight lines, by cubics that stay between samples, or as a sum of harmonics near them."),
+    only(FOURIER, "opening.harmonics", Count(1, 1000), Required, "Number of harmonics, at most half the number of samples."),
     only(PRESCRIBED, "opening.ramp", Quantity(TIME, Range::NON_NEGATIVE), Optional("chosen by the planner"), "Time over which the value rises smoothly from zero."),
     only(RESISTANCE_AT, "opening.resistance", Quantity(RESISTANCE, Range::NON_NEGATIVE), Required, "Pressure per outflow."),
     only(WINDKESSEL, "opening.proximal_resistance", Quantity(RESISTANCE, Range::NON_NEGATIVE), Required, "Resistance before the compliance."),
@@ -147,6 +158,9 @@ pub(crate) const KEYS: &[Key] = &[
     only(WINDKESSEL, "opening.periodic_start", Flag, Default("false"), "Start from the pressure that the periodic inflow leads to without a vessel, instead of `initial_pressure`."),
     only(WINDKESSEL, "opening.initial_pressure", Quantity(PRESSURE, Range::ANY), Optional("`distal_pressure`"), "Gauge pressure at the start."),
     only(OUTLET_MODEL, "opening.distal_pressure", Quantity(PRESSURE, Range::ANY), Default("0 Pa"), "Gauge pressure behind the outlet model."),
+    only(OUTLET_MODEL, "opening.coupling", Choice(CouplingKind::WORDS), Default("impedance"), "How the model takes up the flow: at every acoustic step, implicitly with the impedance of the cap, or once a window from the mean flow over it, as published."),
+    only(WINDOW, "opening.window", Quantity(TIME, Range::POSITIVE), Required, "Length of the window."),
+    only(OUTLET_MODEL, "opening.backflow_damping", Number(Range::closed(0.0, 1.0)), Default("0.5"), "How strongly flow that comes in is damped; 0 not at all (Moghadam et al. 2011, there beta)."),
     //
     key("probe", Tables, Optional("no probes"), "One table for each point whose values are recorded in `probes.csv`."),
     key("probe.name", Name, Required, "Its name in `probes.csv`."),
@@ -167,10 +181,12 @@ pub(crate) const KEYS: &[Key] = &[
     key("run.cycles", Count(1, 10_000), Optional("`end_time` rules"), "Number of heart cycles."),
     key("run.period", Quantity(TIME, Range::POSITIVE), Optional("nothing repeats"), "Heart period; waveforms repeat after it."),
     key("run.steady", Number(Range::above(0.0, 1.0)), Optional("the run goes on to its end"), "End early once the flow of every opening changes by less than this share."),
+    key("run.periodicity", Number(Range::above(0.0, 1.0)), Optional("the run goes on to its end"), "End early once two successive cycles differ by no more than this share of the range of every flow and pressure, and of twice it in the time-averaged wall shear stress."),
     //
     key("output", Table, Default(""), "What to write and how often, in simulated time."),
     key("output.every", Quantity(TIME, Range::POSITIVE), Optional("a hundredth of the run"), "Interval of the particle series."),
     key("output.table_every", Quantity(TIME, Range::POSITIVE), Optional("a tenth of `every`"), "Interval of `openings.csv` and `probes.csv`."),
-    key("output.fields", Choices(Field::WORDS), Optional("velocity and pressure with blood, displacement and von_mises with a wall that deforms"), "Fields of the series. `tawss`, `osi` and `rrt` need `run.period`."),
+    key("output.fields", Choices(Field::WORDS), Optional("velocity and pressure with blood, displacement and von_mises with a wall that deforms"), "Fields of the series. `tawss`, `osi`, `rrt`, `ecap`, `transverse_wss` and `peak_wss` are of a cycle and need `run.period`."),
     key("output.checkpoint_every", Quantity(TIME, Range::POSITIVE), Optional("at the end and on interruption"), "Interval of checkpoints."),
+    key("output.fractional_flow_reserve", Pairs, Optional("none"), "Pairs of openings, [\"proximal\", \"distal\"], whose fractional flow reserve is told."),
 ];

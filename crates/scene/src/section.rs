@@ -41,6 +41,7 @@ pub(crate) enum Value {
     Number(f64),
     Words(Vec<String>),
     Point([f64; 3]),
+    Pairs(Vec<[String; 2]>),
     Section(Section),
     Sections(Vec<Section>),
 }
@@ -147,6 +148,13 @@ impl Section {
         match self.field(name) {
             Some(Field { value: Value::Point(point), .. }) => *point,
             _ => [f64::NAN; 3],
+        }
+    }
+
+    pub(crate) fn pairs(&self, name: &str) -> &[[String; 2]] {
+        match self.field(name) {
+            Some(Field { value: Value::Pairs(pairs), .. }) => pairs,
+            _ => &[],
         }
     }
 

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use vaso_scene::material::{Damping, Ends, Material, Viscosity};
 use vaso_scene::{
-    Condition, Drive, Field, Generator, Lattice, OpenEnds, Precision, Problem, Profile, Scene, SceneError,
-    Topology, Wall, WallBody,
+    Condition, Coupling, Drive, Field, Generator, Interpolation, Lattice, OpenEnds, Precision, Problem,
+    Profile, Scene, SceneError, Topology, Wall, WallBody,
 };
 
 fn good(name: &str) -> Scene {
@@ -116,6 +116,44 @@ fn a_pulsatile_case_with_everything() {
     let fields = [Field::Velocity, Field::Displacement, Field::Wss, Field::Tawss, Field::Osi, Field::Rrt];
     assert_eq!(scene.output.fields, fields);
     assert_eq!(scene.probes[0].at, [0.1, 0.2, 0.3]);
+}
+
+#[test]
+fn a_case_with_options() {
+    let scene = good("options.toml");
+    let Condition::Flow { profile, value } = &scene.openings[0].condition else { panic!("not a flow") };
+    assert_eq!(*profile, Profile::Power { exponent: 9.0 });
+    assert_eq!(waveform(value).interpolation, Interpolation::Monotone);
+    let flow = waveform(value).value.clone();
+    // The unit is named by the key here, by the header there, and is the same.
+    let Condition::Flow { value, .. } = &scene.openings[1].condition else { panic!("not a flow") };
+    assert_eq!(waveform(value).interpolation, Interpolation::Fourier { harmonics: 2 });
+    assert_eq!(waveform(value).time, [0.0, 0.2, 0.4, 0.6]);
+    for (read, expected) in
+        [&flow, &waveform(value).value].into_iter().flatten().zip([5.0, 15.0, 10.0, 4.0].repeat(2))
+    {
+        assert!((read / 1e-6 - expected).abs() < 1e-12 * expected, "{read}");
+    }
+    let Condition::Pressure { value } = &scene.openings[2].condition else { panic!("not a pressure") };
+    assert_eq!(waveform(value).interpolation, Interpolation::Linear);
+    assert_eq!(waveform(value).value[1], 120.0 * 133.322387415);
+
+    let outlets: Vec<_> = scene.openings.iter().map(|o| (o.coupling, o.backflow_damping)).collect();
+    let none = (Coupling::Impedance, None);
+    let expected = [
+        none,
+        none,
+        none,
+        (Coupling::Window { duration: 6e-3 }, Some(0.0)),
+        (Coupling::Impedance, Some(0.5)),
+    ];
+    assert_eq!(outlets, expected);
+    assert_eq!((scene.run.periodicity, scene.run.cycles), (Some(0.01), Some(8)));
+    let fields =
+        [Field::Wss, Field::Tawss, Field::Osi, Field::Rrt, Field::Ecap, Field::TransverseWss, Field::PeakWss];
+    assert_eq!(scene.output.fields, fields);
+    assert!(!fields[0].is_of_a_cycle() && fields[1..].iter().all(|field| field.is_of_a_cycle()));
+    assert_eq!(scene.output.fractional_flow_reserve, [["cca", "ica"], ["cca", "eca"]]);
 }
 
 #[test]

@@ -6,6 +6,7 @@
 
 pub mod density;
 pub mod moments;
+pub mod near_wall;
 pub mod offset;
 pub mod pressure;
 pub mod thinning;

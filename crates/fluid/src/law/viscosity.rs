@@ -6,7 +6,7 @@ use vaso_kernels::{Lanes, Own, Pair, PairLaw, Real};
 /// Number of sums between fluid particles.
 pub const FLUID_SUMS: usize = 15;
 /// Number of sums with wall particles.
-pub const WALL_SUMS: usize = 12;
+pub const WALL_SUMS: usize = 14;
 
 /// Fluid pairs; the second record is the correction matrix B.
 ///
@@ -38,12 +38,13 @@ impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidViscosity {
     }
 }
 
-/// Pairs with wall particles, whose velocity is extrapolated linearly from the fluid particle
-/// through the wall, `v_a = v_w - min(d_a / d_i, 5) (v_i - v_w)` (Morris, Fox, Zhu 1997).
+/// Pairs with wall particles, whose velocity continues the parabola `v_w + a s + b s^2` through the fluid particle beyond
+/// the wall: `v_a = v_w - min(d_a / d_i, 5) (v_i - v_w) + b d_a (d_a + d_i)`. Without `b` it is that of Morris, Fox, Zhu 1997.
 ///
 /// The record's scalar is the depth `d_a` of the wall particle and the inverse distance `1 / d_i`
-/// of the fluid particle; the own second record is the correction matrix. Sums `[0..3]` of
-/// `V u^3 2 e.B_i e (v_i - v_a)` and `[3..12]` of `2 V u^3 (v_i - v_w) (x) d`.
+/// of the fluid particle; the own second record is the correction matrix. Sums with `f = V u^3 2 e.B_i e`: `[0..3]` of
+/// `f (v_i - v_a)` without the part of `b`, `[3..12]` of `V u^3 (v_i - v_a) (x) d`, also without, and `[12]` of `f d_a` and `[13]` of
+/// `f d_a^2`, which that part needs.
 pub struct WallViscosity;
 
 /// Largest ratio of wall depth to fluid distance in the extrapolation: beyond, the explicit
@@ -61,16 +62,19 @@ impl<R: Real> PairLaw<R, WALL_SUMS> for WallViscosity {
         let g = gradient_weight(p.u, p.volume);
         let two = L::constant(2.0);
         let ratio = (p.scalar * own.scalar).min(L::constant(MAX_EXTRAPOLATION));
-        let factor =
-            two * dot(sym_mul(&own.second, p.d), p.d) * (p.r_inv * p.r_inv) * (L::constant(1.0) + ratio);
+        let factor = two * dot(sym_mul(&own.second, p.d), p.d) * (p.r_inv * p.r_inv);
         let dv = [
             own.velocity[0] - p.velocity[0],
             own.velocity[1] - p.velocity[1],
             own.velocity[2] - p.velocity[2],
         ];
-        let g2 = two * g;
-        let gd = [g2 * p.d[0], g2 * p.d[1], g2 * p.d[2]];
-        add_scaled(sums, 0, g * factor, dv);
+        let weighted = g * factor;
+        let depth = weighted * p.scalar;
+        let g = g * (L::constant(1.0) + ratio);
+        let gd = [g * p.d[0], g * p.d[1], g * p.d[2]];
+        add_scaled(sums, 0, weighted * (L::constant(1.0) + ratio), dv);
         add_outer(sums, 3, dv, gd);
+        sums[12] = sums[12] + depth;
+        sums[13] = depth.fma(p.scalar, sums[13]);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Element, Growing, Number, Outcome, Read, Values, Write};
 use hdf5_metno::types::{FixedAscii, VarLenAscii};
-use hdf5_metno::{Dataset, Extent, File, Group, H5Type, SimpleExtents};
+use hdf5_metno::{Attribute, Dataset, Extent, File, Group, H5Type, SimpleExtents};
 use std::path::Path;
 
 /// A file open for writing.
@@ -22,6 +22,16 @@ fn group_of(file: &File, path: &str) -> Outcome<Group> {
 /// Last component of the name the library gives an object, which is its full path.
 fn base(name: &str) -> String {
     name.rsplit_once('/').map_or(name, |(_, base)| base).to_owned()
+}
+
+fn read_text(attribute: &Attribute) -> Outcome<String> {
+    // The other library writes text of fixed length; the longest of ours is a formula of some hundred letters.
+    let fixed = || attribute.read_scalar::<FixedAscii<512>>().map(|text| text.as_str().to_owned());
+    attribute
+        .read_scalar::<VarLenAscii>()
+        .map(|text| text.as_str().to_owned())
+        .or_else(|_| fixed())
+        .map_err(words)
 }
 
 fn create<T: H5Type>(file: &File, path: &str, shape: Growing) -> Outcome<()> {
@@ -80,6 +90,13 @@ impl Write for Writer {
     fn text(&self, group: &str, name: &str, value: &str) -> Outcome<()> {
         let text = VarLenAscii::from_ascii(value).map_err(words)?;
         let attribute = group_of(&self.0, group)?.new_attr::<VarLenAscii>().create(name).map_err(words)?;
+        attribute.write_scalar(&text).map_err(words)
+    }
+
+    fn note(&self, dataset: &str, name: &str, value: &str) -> Outcome<()> {
+        let text = VarLenAscii::from_ascii(value).map_err(words)?;
+        let dataset = self.0.dataset(dataset).map_err(words)?;
+        let attribute = dataset.new_attr::<VarLenAscii>().create(name).map_err(words)?;
         attribute.write_scalar(&text).map_err(words)
     }
 
@@ -145,14 +162,15 @@ impl Read for Reader {
     }
 
     fn text(&self, group: &str, name: &str) -> Outcome<String> {
-        let attribute = group_of(&self.0, group)?.attr(name).map_err(words)?;
-        // The other library writes text of fixed length; the longest of ours is a digest of 64 letters.
-        let fixed = || attribute.read_scalar::<FixedAscii<256>>().map(|text| text.as_str().to_owned());
-        attribute
-            .read_scalar::<VarLenAscii>()
-            .map(|text| text.as_str().to_owned())
-            .or_else(|_| fixed())
-            .map_err(words)
+        read_text(&group_of(&self.0, group)?.attr(name).map_err(words)?)
+    }
+
+    fn note(&self, dataset: &str, name: &str) -> Outcome<Option<String>> {
+        let dataset = self.0.dataset(dataset).map_err(words)?;
+        if !dataset.attr_names().map_err(words)?.iter().any(|present| present == name) {
+            return Ok(None);
+        }
+        read_text(&dataset.attr(name).map_err(words)?).map(Some)
     }
 
     fn datasets(&self, group: &str) -> Outcome<Vec<String>> {

@@ -77,6 +77,8 @@ pub(crate) trait Write: Sized {
     fn group(&self, path: &str) -> Outcome<()>;
     /// Sets an attribute of a group to fixed-length ASCII text.
     fn text(&self, group: &str, name: &str, value: &str) -> Outcome<()>;
+    /// Sets an attribute of a dataset to fixed-length ASCII text.
+    fn note(&self, dataset: &str, name: &str, value: &str) -> Outcome<()>;
     /// Sets an attribute of a group to integers: one makes a scalar, several an array.
     fn integers(&self, group: &str, name: &str, values: &[i64]) -> Outcome<()>;
     /// Makes an empty dataset that can grow.
@@ -95,6 +97,8 @@ pub(crate) trait Read: Sized {
     fn open(path: &Path) -> Outcome<Self>;
     /// Text attribute of a group.
     fn text(&self, group: &str, name: &str) -> Outcome<String>;
+    /// Text attribute of a dataset; `None` where it has none of that name.
+    fn note(&self, dataset: &str, name: &str) -> Outcome<Option<String>>;
     /// Names of the datasets directly in a group, in order of name.
     fn datasets(&self, group: &str) -> Outcome<Vec<String>>;
     /// Number of rows and of columns (1 for a list).
@@ -135,6 +139,7 @@ mod tests {
         file.growing("a/times", Growing { element: Element::F64, columns: None, deflate: None, ..shape })
             .unwrap();
         file.fixed("a/ids", Values::U64(&[7, u64::MAX]), None).unwrap();
+        file.note("a/points", "units", "m").unwrap();
         file.close().unwrap();
         for session in 0..3 {
             let file = W::append(path).unwrap();
@@ -148,6 +153,8 @@ mod tests {
     fn check<R: Read>(path: &Path) {
         let file = R::open(path).unwrap();
         assert_eq!(file.text("a", "Name").unwrap(), "PolyData");
+        assert_eq!(file.note("a/points", "units").unwrap().as_deref(), Some("m"));
+        assert_eq!(file.note("a/points", "citation").unwrap(), None);
         assert_eq!(file.datasets("a").unwrap(), ["ids", "points", "times"]);
         assert_eq!(file.shape("a/points").unwrap(), (60, 3));
         let points: Vec<f32> = file.all("a/points").unwrap();

@@ -23,6 +23,15 @@ fn split(path: &str) -> (&str, &str) {
     path.rsplit_once('/').unwrap_or(("", path))
 }
 
+/// Type and bytes of fixed-length text.
+fn fixed_text(value: &str) -> Outcome<(DatatypeMessage, Vec<u8>)> {
+    // HDF5 has no strings of length zero.
+    let mut bytes = value.as_bytes().to_vec();
+    bytes.resize(bytes.len().max(1), 0);
+    let size = u32::try_from(bytes.len()).map_err(words)?;
+    Ok((DatatypeMessage::FixedString { size, padding: 1, charset: 0 }, bytes))
+}
+
 fn group_of(file: &H5File, path: &str) -> Outcome<H5Group> {
     let root = file.root_group();
     if path.is_empty() { Ok(root) } else { root.group(path).map_err(words) }
@@ -66,12 +75,14 @@ impl Write for Writer {
     }
 
     fn text(&self, group: &str, name: &str, value: &str) -> Outcome<()> {
-        // HDF5 has no strings of length zero.
-        let mut bytes = value.as_bytes().to_vec();
-        bytes.resize(bytes.len().max(1), 0);
-        let size = u32::try_from(bytes.len()).map_err(words)?;
-        let kind = DatatypeMessage::FixedString { size, padding: 1, charset: 0 };
+        let (kind, bytes) = fixed_text(value)?;
         group_of(&self.0, group)?.set_attr_typed(name, kind, bytes).map_err(words)
+    }
+
+    fn note(&self, dataset: &str, name: &str, value: &str) -> Outcome<()> {
+        let (kind, bytes) = fixed_text(value)?;
+        let dataset = self.0.dataset_writer(dataset).map_err(words)?;
+        dataset.set_attr_typed(name, kind, bytes).map_err(words)
     }
 
     fn integers(&self, group: &str, name: &str, values: &[i64]) -> Outcome<()> {
@@ -139,6 +150,15 @@ impl Read for Reader {
         let group = group_of(&self.0, group)?;
         let text = group.attr_string(name).map_err(words)?;
         Ok(text.trim_end_matches('\0').to_owned())
+    }
+
+    fn note(&self, dataset: &str, name: &str) -> Outcome<Option<String>> {
+        let dataset = self.0.dataset(dataset).map_err(words)?;
+        if !dataset.attr_names().map_err(words)?.iter().any(|present| present == name) {
+            return Ok(None);
+        }
+        let text = dataset.attr(name).and_then(|attribute| attribute.read_string()).map_err(words)?;
+        Ok(Some(text.trim_end_matches('\0').to_owned()))
     }
 
     fn datasets(&self, group: &str) -> Outcome<Vec<String>> {

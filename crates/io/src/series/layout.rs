@@ -1,8 +1,10 @@
 //! Where everything lies in the file: the VTKHDF names, and the empty skeleton.
 //!
 //! Rules that VTK's reader keeps silent about until they are broken: all four kinds of cells must be there,
-//! also the three unused ones; `CellOffsets` counts cells, not entries of `Offsets`; `Connectivity` counts
-//! from zero within a frame, so that one list 0, 1, 2, ... as long as the largest frame serves all frames.
+//! also the unused ones; `CellOffsets` counts cells, not entries of `Offsets`; `Connectivity` counts
+//! from zero within a frame, so that one list 0, 1, 2, ... as long as the largest frame serves all frames. What
+//! counts points and cells is listed by part, not by frame: frames of a surface share one part, and only their
+//! points and fields have offsets of their own.
 
 use super::plan::Field;
 use crate::hdf5::{Element, Growing, Outcome, Write};
@@ -24,8 +26,17 @@ pub(super) const CONNECTIVITY_OFFSETS: &str = "VTKHDF/Steps/ConnectivityIdOffset
 pub(super) const OURS: &str = "vaso";
 pub(super) const UNITS: &str = "vaso/units";
 
-/// The four kinds of cells of PolyData in the order of the columns of `CellOffsets`; only the first is used.
-pub(super) const CELLS: [&str; 4] = ["Vertices", "Lines", "Polygons", "Strips"];
+/// The cells of particles.
+pub(super) const VERTICES: &str = "Vertices";
+/// The cells of surfaces.
+pub(super) const POLYGONS: &str = "Polygons";
+/// The four kinds of cells of PolyData in the order of the columns of `CellOffsets`.
+pub(super) const CELLS: [&str; 4] = [VERTICES, "Lines", POLYGONS, "Strips"];
+
+/// Attributes of a field, with those of [`Description`](super::plan::Description).
+pub(super) const FIELD_UNITS: &str = "units";
+pub(super) const FIELD_DEFINITION: &str = "definition";
+pub(super) const FIELD_CITATION: &str = "citation";
 
 /// Rows of the lists with one row a frame: short, so that a short series stays small.
 const STEP_CHUNK: usize = 256;
@@ -48,9 +59,11 @@ pub(super) fn field_offsets(name: &str) -> String {
 }
 
 /// Writes groups, attributes and empty datasets for frames with these fields.
-pub(super) fn skeleton<W: Write>(file: &W, fields: &[Field]) -> Outcome<()> {
+pub(super) fn skeleton<W: Write>(file: &W, fields: &[Field], surface: bool) -> Outcome<()> {
     let per_step = |element, columns| Growing { element, columns, chunk: STEP_CHUNK, deflate: None };
     let per_point = |element, columns| Growing { element, columns, chunk: POINT_CHUNK, deflate: Some(LEVEL) };
+    // A pair a frame for particles, an entry a triangle for a surface.
+    let ends = if surface { per_point(Element::I64, None) } else { per_step(Element::I64, None) };
 
     file.group(ROOT)?;
     file.text(ROOT, "Type", "PolyData")?;
@@ -61,7 +74,7 @@ pub(super) fn skeleton<W: Write>(file: &W, fields: &[Field]) -> Outcome<()> {
         file.group(&format!("{ROOT}/{kind}"))?;
         file.growing(&cells(kind, "NumberOfCells"), per_step(Element::I64, None))?;
         file.growing(&cells(kind, "NumberOfConnectivityIds"), per_step(Element::I64, None))?;
-        file.growing(&cells(kind, "Offsets"), per_step(Element::I64, None))?;
+        file.growing(&cells(kind, "Offsets"), ends)?;
         file.growing(&cells(kind, "Connectivity"), per_point(Element::I64, None))?;
     }
     file.group(POINT_DATA)?;
@@ -85,8 +98,15 @@ pub(super) fn skeleton<W: Write>(file: &W, fields: &[Field]) -> Outcome<()> {
     file.group(UNITS)?;
     file.text(UNITS, "Points", "m")?;
     for entry in fields {
-        if let Some(unit) = schema::unit(&entry.name) {
+        let described = &entry.description;
+        let unit = if described.unit.is_empty() { schema::unit(&entry.name) } else { Some(&*described.unit) };
+        if let Some(unit) = unit {
             file.text(UNITS, &entry.name, unit)?;
+            file.note(&field(&entry.name), FIELD_UNITS, unit)?;
+        }
+        let notes = [(FIELD_DEFINITION, &described.definition), (FIELD_CITATION, &described.citation)];
+        for (name, text) in notes.into_iter().filter(|(_, text)| !text.is_empty()) {
+            file.note(&field(&entry.name), name, text)?;
         }
     }
     Ok(())

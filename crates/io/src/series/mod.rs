@@ -1,4 +1,4 @@
-//! Time series of particles in the VTKHDF format.
+//! Time series of particles, and of a surface of triangles, in the VTKHDF format.
 //!
 //! One file holds all frames of one body and opens by itself in ParaView and in VTK's `vtkHDFReader`
 //! (VTKHDF 2.0, PolyData with steps; VTK 9.3 or newer). Coordinates and fields are stored in single
@@ -8,12 +8,15 @@
 //!
 //! The public file is complete and closed at every moment; see [`SeriesWriter`] for how.
 
+mod cells;
 mod layout;
 mod plan;
 mod read;
+mod surface;
 mod write;
 
 pub use read::{FieldInfo, SeriesInfo, SeriesReader, read_series_info};
+pub use surface::{SurfaceField, SurfaceFrame, SurfaceMesh, SurfaceSeriesWriter};
 pub use write::SeriesWriter;
 
 use glam::DVec3;

@@ -1,16 +1,26 @@
 //! What one frame adds to the file, decided before anything is written.
 
+use super::cells::{Cells, Triangles};
 use super::{Frame, layout};
 use crate::hdf5::{Element, Outcome, Values, Write};
 use crate::schema;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Name and width of a field.
+/// Name, width and meaning of a field.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Field {
     pub(super) name: String,
     pub(super) kind: FieldKind,
+    pub(super) description: Description,
+}
+
+/// What the file says of a field beyond its name; empty where there is nothing to say.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Description {
+    pub(super) unit: String,
+    pub(super) definition: String,
+    pub(super) citation: String,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,6 +31,10 @@ pub(super) enum FieldKind {
 }
 
 impl Field {
+    fn undescribed(name: &str, kind: FieldKind) -> Self {
+        Self { name: name.to_owned(), kind, description: Description::default() }
+    }
+
     pub(super) fn element(&self) -> Element {
         match self.kind {
             FieldKind::Scalar | FieldKind::Vector => Element::F32,
@@ -41,11 +55,11 @@ pub(super) enum Column {
 }
 
 impl Column {
-    fn scalars(values: &[f64]) -> Self {
+    pub(super) fn scalars(values: &[f64]) -> Self {
         Self::F32(values.iter().map(|&x| x as f32).collect())
     }
 
-    fn vectors(values: &[DVec3]) -> Self {
+    pub(super) fn vectors(values: &[DVec3]) -> Self {
         Self::F32(values.iter().flat_map(|v| v.as_vec3().to_array()).collect())
     }
 
@@ -90,8 +104,7 @@ pub(super) struct Step {
     count: i64,
     points: Placed,
     fields: Vec<(String, Placed)>,
-    /// Entries the shared list 0, 1, 2, ... must grow by.
-    connectivity: std::ops::Range<i64>,
+    cells: Cells,
 }
 
 /// Rows in use, dataset by dataset, and the last frame to compare the next one with.
@@ -100,6 +113,8 @@ pub(super) struct Planner {
     pub(super) fields: Vec<Field>,
     pub(super) steps: i64,
     pub(super) last_time: Option<f64>,
+    /// Triangles of a surface; `None` for particles.
+    pub(super) triangles: Option<Triangles>,
     points_rows: i64,
     field_rows: Vec<i64>,
     connectivity_rows: i64,
@@ -119,8 +134,7 @@ impl Planner {
             return Err(format!("field `{}` is given twice", twice[0].name));
         }
         if self.steps == 0 {
-            self.field_rows = vec![0; fields.len()];
-            self.fields = fields;
+            self.declare(fields);
         } else if self.fields != fields {
             let names =
                 |list: &[Field]| list.iter().map(|field| field.name.clone()).collect::<Vec<_>>().join(", ");
@@ -132,39 +146,62 @@ impl Planner {
         }
 
         let count = frame.position.len() as i64;
-        let before = self.previous.take();
-        let points = place(
-            Column::vectors(frame.position),
-            before.as_ref().map(|s| &s.points),
-            &mut self.points_rows,
-            count,
-        );
-        let mut placed = Vec::with_capacity(columns.len());
-        for (i, (field, column)) in columns.into_iter().enumerate() {
-            let old = before.as_ref().map(|step| &step.fields[i].1);
-            placed.push((field.name, place(column, old, &mut self.field_rows[i], count)));
-        }
-        let connectivity = self.connectivity_rows..count.max(self.connectivity_rows);
-        self.connectivity_rows = connectivity.end;
+        let columns = columns.into_iter().map(|(_, column)| Some(column)).collect();
+        Ok(self.arrange(frame.time, count, Some(Column::vectors(frame.position)), columns))
+    }
 
-        let step = Step { index: self.steps, time: frame.time, count, points, fields: placed, connectivity };
+    /// Fixes the fields of all frames, which are in order of name.
+    pub(super) fn declare(&mut self, fields: Vec<Field>) {
+        self.field_rows = vec![0; fields.len()];
+        self.fields = fields;
+    }
+
+    /// Gives every array its rows. One that is left out stays as it was in the frame before; the first frame has all.
+    pub(super) fn arrange(
+        &mut self,
+        time: f64,
+        count: i64,
+        points: Option<Column>,
+        columns: Vec<Option<Column>>,
+    ) -> Step {
+        let before = self.previous.take();
+        let points = place(points, before.as_ref().map(|s| &s.points), &mut self.points_rows, count);
+        let mut placed = Vec::with_capacity(columns.len());
+        for (i, (field, column)) in self.fields.iter().zip(columns).enumerate() {
+            let old = before.as_ref().map(|step| &step.fields[i].1);
+            placed.push((field.name.clone(), place(column, old, &mut self.field_rows[i], count)));
+        }
+        let cells = match &self.triangles {
+            Some(triangles) => Cells::Surface(triangles.clone()),
+            None => {
+                let connectivity = self.connectivity_rows..count.max(self.connectivity_rows);
+                self.connectivity_rows = connectivity.end;
+                Cells::Particles(connectivity)
+            }
+        };
+        let step = Step { index: self.steps, time, count, points, fields: placed, cells };
         self.steps += 1;
-        self.last_time = Some(frame.time);
+        self.last_time = Some(time);
         self.previous = Some(step.clone());
-        Ok(step)
+        step
+    }
+
+    /// Says what is wrong with the time of a new frame.
+    pub(super) fn check_time(&self, time: f64) -> Result<(), String> {
+        if !time.is_finite() {
+            return Err(format!("the time of the frame is \"{time}\", expected a finite number"));
+        }
+        match self.last_time.filter(|&last| time <= last) {
+            Some(last) => Err(format!(
+                "the frame at {time} s does not come after the last one at {last} s; open the series with \
+                 `continue_at` to drop later frames"
+            )),
+            None => Ok(()),
+        }
     }
 
     fn columns(&self, frame: &Frame<'_>) -> Result<Vec<(Field, Column)>, String> {
-        if !frame.time.is_finite() {
-            return Err(format!("the time of the frame is \"{}\", expected a finite number", frame.time));
-        }
-        if let Some(last) = self.last_time.filter(|&last| frame.time <= last) {
-            return Err(format!(
-                "the frame at {} s does not come after the last one at {last} s; open the series with \
-                 `continue_at` to drop later frames",
-                frame.time
-            ));
-        }
+        self.check_time(frame.time)?;
         let expected = frame.position.len();
         let check = |name: &str, length: usize| {
             if length == expected {
@@ -176,28 +213,29 @@ impl Planner {
         let mut columns = Vec::new();
         for (name, values) in &frame.scalars {
             check(name, values.len())?;
-            columns
-                .push((Field { name: name.to_string(), kind: FieldKind::Scalar }, Column::scalars(values)));
+            columns.push((Field::undescribed(name, FieldKind::Scalar), Column::scalars(values)));
         }
         for (name, values) in &frame.vectors {
             check(name, values.len())?;
-            columns
-                .push((Field { name: name.to_string(), kind: FieldKind::Vector }, Column::vectors(values)));
+            columns.push((Field::undescribed(name, FieldKind::Vector), Column::vectors(values)));
         }
         if let Some(ids) = frame.ids {
             check(schema::ID, ids.len())?;
-            columns.push((Field { name: schema::ID.to_owned(), kind: FieldKind::Id }, Column::ids(ids)));
+            columns.push((Field::undescribed(schema::ID, FieldKind::Id), Column::ids(ids)));
         }
         Ok(columns)
     }
 }
 
-fn place(column: Column, before: Option<&Placed>, rows: &mut i64, count: i64) -> Placed {
-    if let Some(old) = before.filter(|old| old.column.same_bits(&column)) {
+fn place(column: Option<Column>, before: Option<&Placed>, rows: &mut i64, count: i64) -> Placed {
+    let stays = |old: &&Placed| column.as_ref().is_none_or(|column| old.column.same_bits(column));
+    if let Some(old) = before.filter(stays) {
         return Placed { fresh: false, ..old.clone() };
     }
     let offset = *rows;
     *rows += count;
+    let column =
+        column.expect("the first frame has every array, and it is the only one without a frame before");
     Placed { column: Arc::new(column), offset, fresh: true }
 }
 
@@ -206,7 +244,7 @@ impl Step {
     pub(super) fn apply<W: Write>(&self, file: &W) -> Outcome<()> {
         let one = |path: &str, value: i64| file.extend(path, Values::I64(&[value]));
 
-        one(layout::NUMBER_OF_POINTS, self.count)?;
+        self.cells.apply(file, self.index, self.count)?;
         if self.points.fresh {
             file.extend(layout::POINTS, self.points.column.values())?;
         }
@@ -217,23 +255,8 @@ impl Step {
             one(&layout::field_offsets(name), placed.offset)?;
         }
 
-        // One poly-vertex cell a frame: without a cell a surface mapper has nothing to draw.
-        for (kind, used) in layout::CELLS.into_iter().zip([true, false, false, false]) {
-            let (cells, ids) = if used { (1, self.count) } else { (0, 0) };
-            one(&layout::cells(kind, "NumberOfCells"), cells)?;
-            one(&layout::cells(kind, "NumberOfConnectivityIds"), ids)?;
-            let offsets: &[i64] = if used { &[0, self.count] } else { &[0] };
-            file.extend(&layout::cells(kind, "Offsets"), Values::I64(offsets))?;
-        }
-        let connectivity: Vec<i64> = self.connectivity.clone().collect();
-        file.extend(&layout::cells(layout::CELLS[0], "Connectivity"), Values::I64(&connectivity))?;
-
         file.extend(layout::TIMES, Values::F64(&[self.time]))?;
         one(layout::POINT_OFFSETS, self.points.offset)?;
-        one(layout::PART_OFFSETS, self.index)?;
-        one(layout::NUMBER_OF_PARTS, 1)?;
-        file.extend(layout::CELL_OFFSETS, Values::I64(&[self.index, 0, 0, 0]))?;
-        file.extend(layout::CONNECTIVITY_OFFSETS, Values::I64(&[0, 0, 0, 0]))?;
         file.integers(layout::STEPS, "NSteps", &[self.index + 1])
     }
 }

@@ -1,6 +1,6 @@
 //! Reading a series back, with every count checked before it is believed.
 
-use super::plan::{Field, FieldKind};
+use super::plan::{Description, Field, FieldKind};
 use super::{FrameData, layout};
 use crate::IoError;
 use crate::hdf5::{Read, Reader};
@@ -14,10 +14,14 @@ use std::path::{Path, PathBuf};
 pub struct FieldInfo {
     /// Name as ParaView lists it.
     pub name: String,
-    /// Numbers a particle: 1 or 3.
+    /// Numbers a point: 1 or 3.
     pub components: usize,
-    /// Unit from the field table; `None` for a field that is not in it.
-    pub unit: Option<&'static str>,
+    /// Unit the file or the field table names, `"1"` for pure numbers; `None` where neither does.
+    pub unit: Option<String>,
+    /// How the field is computed; `None` where the file does not say.
+    pub definition: Option<String>,
+    /// Where the definition stems from; `None` where the file does not say.
+    pub citation: Option<String>,
 }
 
 /// What a series holds.
@@ -25,7 +29,7 @@ pub struct FieldInfo {
 pub struct SeriesInfo {
     /// Time of each frame \[s\], ascending.
     pub times: Vec<f64>,
-    /// Particles in each frame.
+    /// Particles, or points of the surface, in each frame.
     pub counts: Vec<usize>,
     /// Fields, in order of name.
     pub fields: Vec<FieldInfo>,
@@ -62,26 +66,36 @@ impl SeriesReader {
         {
             return Err(file.damaged(format!("time {} s follows {} s", pair[1], pair[0])));
         }
-        let counts = file.list(layout::NUMBER_OF_POINTS, times.len())?;
-        let point_offsets = file.list(layout::POINT_OFFSETS, times.len())?;
+        let part_counts = file.list(layout::NUMBER_OF_POINTS, None)?;
+        let count_of = |part: usize| {
+            let count = part_counts.get(part).copied();
+            count.ok_or_else(|| file.damaged(format!("part {part} of {} is asked for", part_counts.len())))
+        };
+        let parts = file.list(layout::PART_OFFSETS, Some(times.len()))?;
+        let counts = parts.into_iter().map(count_of).collect::<Result<Vec<usize>, IoError>>()?;
+        let point_offsets = file.list(layout::POINT_OFFSETS, Some(times.len()))?;
         if file.columns_holding(layout::POINTS, &point_offsets, &counts)? != 3 {
             return Err(file.damaged("points have not three coordinates".to_owned()));
         }
         let mut fields = Vec::new();
         for name in file.datasets(layout::POINT_DATA)? {
-            let offsets = file.list(&layout::field_offsets(&name), times.len())?;
+            let offsets = file.list(&layout::field_offsets(&name), Some(times.len()))?;
             let kind = match file.columns_holding(&layout::field(&name), &offsets, &counts)? {
                 1 if name == schema::ID => FieldKind::Id,
                 1 => FieldKind::Scalar,
                 3 => FieldKind::Vector,
                 n => return Err(file.damaged(format!("field `{name}` has {n} components"))),
             };
-            fields.push((Field { name, kind }, offsets));
+            let description = file.description(&name)?;
+            fields.push((Field { name, kind, description }, offsets));
         }
+        let told = |text: &String| Some(text.clone()).filter(|text| !text.is_empty());
         let described = fields.iter().map(|(field, _)| FieldInfo {
             name: field.name.clone(),
             components: field.columns().unwrap_or(1),
-            unit: schema::unit(&field.name),
+            unit: told(&field.description.unit).or(schema::unit(&field.name).map(str::to_owned)),
+            definition: told(&field.description.definition),
+            citation: told(&field.description.citation),
         });
         let info = SeriesInfo { times, counts, fields: described.collect() };
         Ok(Self { file, info, point_offsets, fields })
@@ -125,6 +139,29 @@ impl SeriesReader {
             }
         }
         Ok(frame)
+    }
+
+    /// Corners of the triangles of a surface, as point numbers, the same for all frames; empty for particles.
+    ///
+    /// # Errors
+    /// [`IoError::Damaged`] when the cells are no triangles or name points that are not there, [`IoError::Hdf5`] when the data
+    /// cannot be read.
+    pub fn triangles(&self) -> Result<Vec<[u32; 3]>, IoError> {
+        let list = |name| self.file.list(&layout::cells(layout::POLYGONS, name), None);
+        let cells = list("NumberOfCells")?.first().copied().unwrap_or(0);
+        if cells == 0 {
+            return Ok(Vec::new());
+        }
+        let (ends, corners) = (list("Offsets")?, list("Connectivity")?);
+        let regular = ends.len() == cells + 1 && ends.iter().enumerate().all(|(k, &end)| end == 3 * k);
+        if !regular || corners.len() != 3 * cells {
+            return Err(self.file.damaged("the polygons are not triangles".to_owned()));
+        }
+        let points = self.info.counts.iter().copied().min().unwrap_or(0);
+        if let Some(corner) = corners.iter().find(|&&corner| corner >= points) {
+            return Err(self.file.damaged(format!("a triangle has the corner {corner} of {points} points")));
+        }
+        Ok(corners.chunks_exact(3).map(|t| [t[0] as u32, t[1] as u32, t[2] as u32]).collect())
     }
 
     /// Reads the last frame; `None` when there is none.
@@ -183,10 +220,23 @@ impl Checked {
         Ok(values.chunks_exact(3).map(|v| DVec3::new(v[0].into(), v[1].into(), v[2].into())).collect())
     }
 
-    /// A list of non-negative integers, one a frame.
-    fn list(&self, name: &str, frames: usize) -> Result<Vec<usize>, IoError> {
+    /// What the file says of a field.
+    fn description(&self, field: &str) -> Result<Description, IoError> {
+        let note = |name| {
+            let text = self.file.note(&layout::field(field), name).map_err(|text| self.failed(text))?;
+            Ok::<String, IoError>(text.unwrap_or_default())
+        };
+        Ok(Description {
+            unit: note(layout::FIELD_UNITS)?,
+            definition: note(layout::FIELD_DEFINITION)?,
+            citation: note(layout::FIELD_CITATION)?,
+        })
+    }
+
+    /// A list of non-negative integers, with one a frame where the number of frames is given.
+    fn list(&self, name: &str, frames: Option<usize>) -> Result<Vec<usize>, IoError> {
         let (rows, _) = self.shape(name)?;
-        if rows != frames {
+        if let Some(frames) = frames.filter(|&frames| frames != rows) {
             return Err(self.damaged(format!("`{name}` has {rows} entries for {frames} frames")));
         }
         self.rows::<i64>(name, 0, rows)?

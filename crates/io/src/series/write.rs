@@ -1,8 +1,8 @@
 //! Appending frames so that the public file is whole at every moment.
 
-use super::plan::{Field, Planner, Step};
+use super::plan::{Planner, Step};
 use super::read::SeriesReader;
-use super::{Frame, layout};
+use super::{Frame, FrameData, layout};
 use crate::hdf5::{self, Write};
 use crate::{IoError, atomic};
 use std::fs;
@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct SeriesWriter {
     path: PathBuf,
-    planner: Planner,
+    pub(super) planner: Planner,
     /// The hidden copy and the one step it lacks; `None` when it must be made from the public file first.
     hidden: Option<(PathBuf, Step)>,
     /// Which of the two hidden names is free.
@@ -55,26 +55,36 @@ impl SeriesWriter {
             return Ok(writer);
         }
         let reader = SeriesReader::open(&writer.path)?;
+        writer.replay(&reader, time, |planner, frame| planner.plan(&frame.view()))?;
+        Ok(writer)
+    }
+
+    /// Writes the frames up to `time` \[s\] of the present public file anew and puts them in its place.
+    pub(super) fn replay(
+        &mut self,
+        reader: &SeriesReader,
+        time: f64,
+        plan: impl Fn(&mut Planner, FrameData) -> Result<Step, String>,
+    ) -> Result<(), IoError> {
         let kept = reader.info().times.iter().take_while(|&&t| t <= time).count();
-        let draft = atomic::beside(&writer.path, "cut");
+        let draft = atomic::beside(&self.path, "cut");
         for index in 0..kept {
             let added = reader.frame(index).and_then(|frame| {
-                let step = writer.planner.plan(&frame.view()).map_err(|what| writer.damaged(what))?;
-                writer.add(&draft, &step, &writer.planner.fields)
+                let step = plan(&mut self.planner, frame).map_err(|what| self.damaged(what))?;
+                self.add(&draft, &step, &self.planner)
             });
             if let Err(error) = added {
                 atomic::remove_if_present(&draft);
                 return Err(error);
             }
         }
-        drop(reader);
         if kept == 0 {
-            atomic::remove_if_present(&writer.path);
+            atomic::remove_if_present(&self.path);
         } else {
-            atomic::publish(&draft, &writer.path)?;
-            writer.public = true;
+            atomic::publish(&draft, &self.path)?;
+            self.public = true;
         }
-        Ok(writer)
+        Ok(())
     }
 
     /// The public file.
@@ -103,11 +113,19 @@ impl SeriesWriter {
     /// [`IoError::Mismatch`] when lengths, fields or time do not fit the frames before (nothing is written
     /// then), [`IoError::System`] or [`IoError::Hdf5`] when the disk refuses; the public file stays as it was.
     pub fn append(&mut self, frame: &Frame<'_>) -> Result<(), IoError> {
+        self.commit(|planner| planner.plan(frame))
+    }
+
+    /// Adds the step that `plan` makes.
+    pub(super) fn commit(
+        &mut self,
+        plan: impl FnOnce(&mut Planner) -> Result<Step, String>,
+    ) -> Result<(), IoError> {
         // Planned on a copy (the arrays in it are shared): after a failure the writer stands where it stood.
         let mut planner = self.planner.clone();
-        let step = planner.plan(frame).map_err(|what| IoError::Mismatch { path: self.path.clone(), what })?;
-        let draft = self.catch_up(&planner.fields)?;
-        if let Err(error) = self.add(&draft, &step, &planner.fields) {
+        let step = plan(&mut planner).map_err(|what| IoError::Mismatch { path: self.path.clone(), what })?;
+        let draft = self.catch_up(&planner)?;
+        if let Err(error) = self.add(&draft, &step, &planner) {
             atomic::remove_if_present(&draft);
             return Err(error);
         }
@@ -117,10 +135,10 @@ impl SeriesWriter {
     }
 
     /// Brings the hidden copy to the state of the public file, making it anew where that cannot be done.
-    fn catch_up(&mut self, fields: &[Field]) -> Result<PathBuf, IoError> {
+    fn catch_up(&mut self, planner: &Planner) -> Result<PathBuf, IoError> {
         if let Some((path, missing)) = self.hidden.take() {
             // Fails when a reader holds this file from the time it was public: it must not change under it.
-            if self.add(&path, &missing, fields).is_ok() {
+            if self.add(&path, &missing, planner).is_ok() {
                 return Ok(path);
             }
         }
@@ -134,11 +152,13 @@ impl SeriesWriter {
 
     /// Adds one step to a file that is not public. Every step gets an opening and closing of its own, so that
     /// the bytes of a file follow from its steps and not from what happened between them.
-    fn add(&self, path: &Path, step: &Step, fields: &[Field]) -> Result<(), IoError> {
+    fn add(&self, path: &Path, step: &Step, planner: &Planner) -> Result<(), IoError> {
+        let skeleton =
+            |file: &hdf5::Writer| layout::skeleton(file, &planner.fields, planner.triangles.is_some());
         let file = if path.exists() {
             hdf5::Writer::append(path)
         } else {
-            hdf5::Writer::create(path).and_then(|file| layout::skeleton(&file, fields).map(|()| file))
+            hdf5::Writer::create(path).and_then(|file| skeleton(&file).map(|()| file))
         };
         file.and_then(|file| step.apply(&file).and_then(|()| file.close()))
             .map_err(|text| IoError::hdf5(&self.path, "append to", text))

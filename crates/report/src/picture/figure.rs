@@ -1,7 +1,7 @@
 //! A picture that stands alone: vessel, colour bar, scale bar and time on white.
 
 use super::canvas::LETTER;
-use super::{Picture, PictureOptions, Style, VesselPicture, draw};
+use super::{Picture, PictureOptions, Style, VesselPicture, draw, draw_surface};
 use crate::ReportError;
 use crate::color::viridis;
 use crate::scale::{number, ticks};
@@ -14,7 +14,7 @@ const BAR_WIDTH: i64 = 26;
 /// Room for a tick label of six letters.
 const LABELS: i64 = 12 + 6 * LETTER.0;
 
-/// Draws the last frame of a series, or the one nearest to `time` \[s\], with its colour bar, scale bar and time, and
+/// Draws the last frame of a series of particles or of a surface, or the one nearest to `time` \[s\], with its colour bar, scale bar and time, and
 /// returns the content of a PNG file.
 ///
 /// # Errors
@@ -30,16 +30,24 @@ pub fn render_vessel_png(
     let nearest = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let Some(index) = nearest else { return Err(ReportError::NoFrame { path: series.to_owned() }) };
     let frame = reader.frame(index)?;
-    compose(&draw(&frame, series, options)?, &frame, options).to_png()
-}
-
-fn compose(drawn: &VesselPicture, frame: &FrameData, options: &PictureOptions) -> Picture {
-    let vessel = &drawn.picture;
-    let title = format!("{} [{}]", options.quantity.name(), options.quantity.unit());
+    let triangles = reader.triangles()?;
+    if !triangles.is_empty() {
+        let drawn = draw_surface(&frame, &triangles, series, options.quantity, options.width)?;
+        return compose(&drawn, &frame, options, "from both sides").to_png();
+    }
     let note = match options.style {
         Style::Cut => "cut along the middle",
         Style::Outside => "from outside",
         Style::Peak => "largest along the line of sight",
+    };
+    compose(&draw(&frame, series, options)?, &frame, options, note).to_png()
+}
+
+fn compose(drawn: &VesselPicture, frame: &FrameData, options: &PictureOptions, note: &str) -> Picture {
+    let vessel = &drawn.picture;
+    let title = match options.quantity.unit() {
+        "" => options.quantity.short_name().to_owned(),
+        unit => format!("{} [{unit}]", options.quantity.short_name()),
     };
     let head = PAD + LETTER.1 + PAD / 2;
     let bar_height = i64::from(vessel.height).max(260);

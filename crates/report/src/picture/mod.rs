@@ -1,26 +1,29 @@
-//! Pictures of a vessel drawn from its particles, without a graphics card or a window.
+//! Pictures of a vessel drawn from its particles or its wall, without a graphics card or a window.
 //!
-//! Particles are opaque spheres in parallel projection with a depth buffer; the view follows the vessel's
-//! own principal axes. The same frame gives the same pixels on every machine.
+//! Particles are opaque spheres and walls opaque triangles in parallel projection with a depth buffer; the view follows the
+//! vessel's own principal axes. The same frame gives the same pixels on every machine.
 
 mod canvas;
 mod cut;
 mod figure;
+mod samples;
 mod smooth;
 mod splat;
+mod surface;
 mod view;
 
 pub use canvas::Picture;
 pub use figure::render_vessel_png;
+pub use surface::draw_surface;
 
 use crate::ReportError;
 use crate::scale::ticks;
 use glam::DVec3;
 use std::path::Path;
 use vaso_io::{FrameData, schema};
-use view::View;
+use view::{Eye, View};
 
-/// The quantity that colours the particles.
+/// The quantity that colours particles or a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Quantity {
@@ -30,6 +33,12 @@ pub enum Quantity {
     Pressure,
     /// Magnitude of the wall shear stress \[Pa\].
     WallShear,
+    /// Time-averaged wall shear stress of a cycle \[Pa\].
+    Tawss,
+    /// Oscillatory shear index of a cycle.
+    Osi,
+    /// Transverse wall shear stress of a cycle \[Pa\].
+    TransverseWss,
     /// Volume of the particles, in cubed spacings where a field `Volume` has been made so.
     Volume,
 }
@@ -41,33 +50,56 @@ impl Quantity {
             Self::Speed => "speed",
             Self::Pressure => "pressure",
             Self::WallShear => "wall shear stress",
+            Self::Tawss => "time-averaged wall shear stress",
+            Self::Osi => "oscillatory shear index",
+            Self::TransverseWss => "transverse wall shear stress",
             Self::Volume => "volume",
         }
     }
 
-    /// Unit of the values.
+    /// Name for beside a colour bar: that of the field where the whole one is long.
+    pub(crate) fn short_name(self) -> &'static str {
+        match self {
+            Self::WallShear | Self::Tawss | Self::Osi | Self::TransverseWss => self.field(),
+            _ => self.name(),
+        }
+    }
+
+    /// Unit of the values; empty for a pure number.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Speed => "m/s",
-            Self::Pressure | Self::WallShear => "Pa",
+            Self::Pressure | Self::WallShear | Self::Tawss | Self::TransverseWss => "Pa",
+            Self::Osi => "",
             Self::Volume => "dp³",
         }
     }
 
-    fn field(self) -> &'static str {
+    pub(crate) fn field(self) -> &'static str {
         match self {
             Self::Speed => schema::VELOCITY,
             Self::Pressure => schema::PRESSURE,
             Self::WallShear => schema::WSS,
+            Self::Tawss => schema::TAWSS,
+            Self::Osi => schema::OSI,
+            Self::TransverseWss => schema::TRANSVERSE_WSS,
             Self::Volume => schema::VOLUME,
         }
     }
 
-    fn values(self, frame: &FrameData) -> Option<Vec<f64>> {
-        match frame.vector(self.field()) {
-            Some(vectors) => Some(vectors.iter().map(|v| v.length()).collect()),
-            None => frame.scalar(self.field()).map(<[f64]>::to_vec),
+    /// Its values in a frame; `path` names the series in the error.
+    pub(crate) fn values(self, frame: &FrameData, path: &Path) -> Result<Vec<f64>, ReportError> {
+        if let Some(vectors) = frame.vector(self.field()) {
+            return Ok(vectors.iter().map(|v| v.length()).collect());
         }
+        frame.scalar(self.field()).map(<[f64]>::to_vec).ok_or_else(|| {
+            let names = frame.scalars.iter().map(|(n, _)| n).chain(frame.vectors.iter().map(|(n, _)| n));
+            ReportError::NoField {
+                path: path.to_owned(),
+                field: self.field().to_owned(),
+                present: names.map(String::as_str).collect::<Vec<_>>().join(", "),
+            }
+        })
     }
 }
 
@@ -126,14 +158,7 @@ pub fn draw(frame: &FrameData, path: &Path, options: &PictureOptions) -> Result<
     if frame.position.is_empty() {
         return Err(ReportError::NoFrame { path: path.to_owned() });
     }
-    let values = options.quantity.values(frame).ok_or_else(|| {
-        let names = frame.scalars.iter().map(|(n, _)| n).chain(frame.vectors.iter().map(|(n, _)| n));
-        ReportError::NoField {
-            path: path.to_owned(),
-            field: options.quantity.field().to_owned(),
-            present: names.map(String::as_str).collect::<Vec<_>>().join(", "),
-        }
-    })?;
+    let values = options.quantity.values(frame, path)?;
     let spacing = options.spacing.filter(|&s| s > 0.0).unwrap_or_else(|| nearest_distance(&frame.position));
     let values = match options.quantity {
         Quantity::Pressure => smooth::local_mean(&frame.position, &values, spacing),
@@ -141,7 +166,8 @@ pub fn draw(frame: &FrameData, path: &Path, options: &PictureOptions) -> Result<
     };
     let (low, high, ticks) = range(options.quantity, &values);
 
-    let view = View::new(&frame.position, spacing, options.width, options.style == Style::Peak);
+    let eye = if options.style == Style::Peak { Eye::Side } else { Eye::Front };
+    let view = View::new(&frame.position, spacing, options.width, eye);
     let seen: Vec<DVec3> = frame.position.iter().map(|&x| view.to_pixels(x)).collect();
     let shown: Vec<usize> = match options.style {
         Style::Cut => cut::behind_the_middle(&seen, view.pixels(spacing)),

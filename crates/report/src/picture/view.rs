@@ -8,6 +8,17 @@ const MARGIN: f64 = 0.02;
 /// The eye is raised by this angle over the vessel's main plane \[rad\], so that depth shows.
 const TILT: f64 = 0.22;
 
+/// The side a vessel is looked at from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Eye {
+    /// Along the axis of least extent.
+    Front,
+    /// The same from behind.
+    Back,
+    /// Along the second axis.
+    Side,
+}
+
 /// A parallel projection that fills the picture with the vessel.
 #[derive(Debug, Clone)]
 pub(super) struct View {
@@ -20,13 +31,17 @@ pub(super) struct View {
 }
 
 impl View {
-    /// Looks along the axis of least extent, the longest lying across; `side` looks along the second axis.
-    pub(super) fn new(position: &[DVec3], spacing: f64, width: u32, side: bool) -> Self {
+    /// Looks at `position` \[m\] from `eye`, the longest axis lying across, with a rim of `spacing` \[m\] around.
+    pub(super) fn new(position: &[DVec3], spacing: f64, width: u32, eye: Eye) -> Self {
         let [longest, second, least] = principal_axes(position);
-        let (up, toward) = if side { (least, -second) } else { (second, least) };
+        let (right, up, toward) = match eye {
+            Eye::Front => (longest, second, least),
+            Eye::Back => (-longest, second, -least),
+            Eye::Side => (longest, least, -second),
+        };
         let (sin, cos) = TILT.sin_cos();
         let (up, toward) = (up * cos - toward * sin, toward * cos + up * sin);
-        let rotation = DMat3::from_cols(longest, -up, toward).transpose();
+        let rotation = DMat3::from_cols(right, -up, toward).transpose();
 
         let turned = position.iter().filter(|x| x.is_finite()).map(|&x| rotation * x);
         let (low, high) =
@@ -44,6 +59,11 @@ impl View {
     /// Pixel coordinates: x to the right, y down, z toward the eye, all in pixels.
     pub(super) fn to_pixels(&self, x: DVec3) -> DVec3 {
         self.rotation * x * self.scale + self.shift
+    }
+
+    /// A direction in the axes of the picture: right, down, toward the eye.
+    pub(super) fn turned(&self, direction: DVec3) -> DVec3 {
+        self.rotation * direction
     }
 
     /// A length \[m\] in pixels.
@@ -109,18 +129,22 @@ mod tests {
             DVec3::new(0.05, 0.02, 0.0),
             DVec3::new(0.05, 0.0, 0.01),
         ];
-        for side in [false, true] {
-            let view = View::new(&points, 1e-3, 800, side);
+        for eye in [Eye::Front, Eye::Back, Eye::Side] {
+            let view = View::new(&points, 1e-3, 800, eye);
             for x in points {
                 let p = view.to_pixels(x);
                 assert!(p.x > 0.0 && p.x < 800.0 && p.y > 0.0 && p.y < f64::from(view.height), "{p}");
             }
             let length = (view.to_pixels(points[1]) - view.to_pixels(points[0])).length() * view.pixel();
             assert!((length - 0.1).abs() < 1e-12);
+            // Seen from anywhere, it is not its mirror image.
+            let [x, y, z] =
+                [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| view.turned(axis) * DVec3::new(1.0, -1.0, 1.0));
+            assert!((x.cross(y).dot(z) - 1.0).abs() < 1e-12);
         }
         // A point alone and a degenerate line still have a view.
         for few in [&points[..1], &points[..2]] {
-            let view = View::new(few, 1e-3, 100, false);
+            let view = View::new(few, 1e-3, 100, Eye::Front);
             assert!(view.to_pixels(few[0]).is_finite() && view.height >= 1);
         }
     }

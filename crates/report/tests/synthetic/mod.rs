@@ -1,10 +1,13 @@
 //! A made-up run of about 20 000 particles: a bent pipe with a side branch, parabolic profiles, pulsating flow.
 
+mod wall;
+
 use glam::DVec3;
 use std::f64::consts::TAU;
 use std::path::Path;
 use vaso_io::{
-    EffectEntry, Frame, IoError, Numbers, OpeningEntry, OpeningSummary, ParticleCounts, SeriesWriter,
+    CycleSummary, EffectEntry, EndReason, EnergySummary, Frame, IoError, Numbers, OpeningCycleSummary,
+    OpeningEntry, OpeningSummary, ParticleCounts, PeriodicitySummary, PressureDropSummary, SeriesWriter,
     Stability, Status, StepCounts, Summary, SurfaceReport, Table,
 };
 
@@ -52,7 +55,7 @@ fn nearest(line: &[DVec3], x: DVec3) -> (f64, DVec3, f64) {
     best
 }
 
-/// Writes `fluid.vtkhdf`, `openings.csv` and `summary.json` of a finished run.
+/// Writes `fluid.vtkhdf`, `wall.vtkhdf`, `openings.csv` and `summary.json` of a finished run.
 pub(crate) fn write(out: &Path) -> Result<(), IoError> {
     let limbs = limbs();
     let mut position = Vec::new();
@@ -114,7 +117,9 @@ pub(crate) fn write(out: &Path) -> Result<(), IoError> {
             if step < 30 { f64::NAN } else { 11_700.0 + 860.0 * pulse(time - 0.015) },
         ])?;
     }
-    summary(position.len() as u64, &names).write(&out.join("summary.json"))
+    let mut summary = summary(position.len() as u64, &names);
+    summary.wall = Some(wall::write(out)?);
+    summary.write(&out.join("summary.json"))
 }
 
 /// A heartbeat around 1.
@@ -122,6 +127,44 @@ fn pulse(time: f64) -> f64 {
     let phase = time / PERIOD;
     let peak = |center: f64, width: f64| (-((phase - phase.floor() - center) / width).powi(2)).exp();
     0.55 + 1.6 * peak(0.22, 0.09) + 0.35 * peak(0.52, 0.08) + 0.05 * (TAU * phase).sin()
+}
+
+fn cycle(index: u64, names: &[&str]) -> CycleSummary {
+    let change = [0.31, 0.042, 0.006].get(index as usize - 1).copied();
+    let opening = |(name, share): (&&str, f64)| OpeningCycleSummary {
+        name: (*name).to_owned(),
+        mean_flow_m3_s: share * 8e-6,
+        min_flow_m3_s: share.min(0.0) * 16e-6 + share.max(0.0) * 3e-6,
+        max_flow_m3_s: share.max(0.0) * 16e-6 + share.min(0.0) * 3e-6,
+        mean_pressure_pa: 12_400.0,
+        systolic_pressure_pa: 15_900.0,
+        diastolic_pressure_pa: 10_300.0,
+        pulse_pressure_pa: 5_600.0,
+        flow_split: (share > 0.0).then_some(share),
+        pulsatility_index: Some(1.6),
+        resistive_index: Some(0.81),
+    };
+    CycleSummary {
+        index,
+        start_s: PERIOD * index as f64,
+        end_s: PERIOD * (index + 1) as f64,
+        openings: names.iter().zip([-1.0, 0.7, 0.3]).map(opening).collect(),
+        periodicity: change.map(|flow| PeriodicitySummary {
+            flow,
+            pressure: 0.6 * flow,
+            wall_shear: Some(1.4 * flow),
+        }),
+        mass_balance_error: Some(0.0011),
+        pressure_drops: vec![PressureDropSummary {
+            proximal: names[0].to_owned(),
+            distal: names[2].to_owned(),
+            mean_pa: 310.0,
+            min_pa: -90.0,
+            max_pa: 840.0,
+            fractional_flow_reserve: Some(0.975),
+        }],
+        mean_tawss_pa: Some(1.31),
+    }
 }
 
 fn summary(fluid: u64, names: &[&str]) -> Summary {
@@ -185,6 +228,17 @@ fn summary(fluid: u64, names: &[&str]) -> Summary {
             ),
             effect("output", true, true, "a frame every 100 ms", 11.0, 0),
         ],
+        end_reason: Some(EndReason::Periodic),
+        cycles: (1..=3).map(|index| cycle(index, names)).collect(),
+        energy: Some(EnergySummary {
+            inflow_j: 2.1e-3,
+            throughput_j: 0.19,
+            dissipated_j: 1.4e-3,
+            kinetic_change_j: 2e-5,
+            residual_j: 6.8e-4,
+            relative_residual: Some(0.0036),
+            damped_backflow_j: Some(1.2e-5),
+        }),
         surface: Some(SurfaceReport {
             triangles: 15_068,
             volume_m3: 1.86683e-6,

@@ -1,0 +1,84 @@
+//! Cycles of the openings, and whether they have become alike.
+
+use crate::error::DriverError;
+use crate::flow::Flow;
+use vaso_fluid::Real;
+use vaso_metrics::{Change, Criterion, OpeningCycle, OpeningCycles, OpeningSample, Verdict};
+
+/// How much more the wall shear stress of a cycle may differ than the openings: it is a small difference of large sums.
+const SHEAR_LENIENCE: f64 = 2.0;
+
+/// Follows flow and pressure of the openings over cycles.
+pub struct OpeningObserver {
+    cycles: OpeningCycles,
+    criterion: Option<Criterion>,
+    /// Whole cycles so far.
+    pub completed: Vec<OpeningCycle>,
+    /// How much each but the first differs from the one before.
+    pub changes: Vec<Change>,
+    /// Change of the time-averaged wall shear stress of each but the first, where it is known.
+    pub shear_changes: Vec<Option<f64>>,
+    judged: usize,
+}
+
+impl OpeningObserver {
+    /// Cycles of `period` \[s\] from the start; with `alike` the run may end once they differ by less than that share.
+    ///
+    /// # Errors
+    /// When the period is not positive.
+    pub(super) fn new(names: Vec<String>, period: f64, alike: Option<f64>) -> Result<Self, DriverError> {
+        let criterion = alike.map(|share| Criterion {
+            openings: share,
+            shear: SHEAR_LENIENCE * share,
+            // The case says after how many cycles to end in any event.
+            most_cycles: u64::MAX,
+        });
+        Ok(Self {
+            cycles: OpeningCycles::new(names, 0.0, period)?,
+            criterion,
+            completed: Vec::new(),
+            changes: Vec::new(),
+            shear_changes: Vec::new(),
+            judged: 0,
+        })
+    }
+
+    pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) -> Result<(), DriverError> {
+        let sample = |r: &vaso_boundary::Reading| OpeningSample {
+            flow: r.flow,
+            pressure: r.pressure,
+            kinetic_power: r.kinetic_power,
+        };
+        let samples: Vec<OpeningSample> = flow.readings.iter().map(sample).collect();
+        if let Some(cycle) = self.cycles.add(flow.time, &samples)? {
+            if let Some(before) = self.completed.last() {
+                self.changes.push(Change::between(before, &cycle));
+                self.shear_changes.push(None);
+            }
+            self.completed.push(cycle);
+        }
+        Ok(())
+    }
+
+    /// Verdict on a cycle that ended. Where the wall is watched it comes with the change of its stress, which is known a
+    /// little later.
+    pub(super) fn judge(&mut self, watches_wall: bool, shear: Option<f64>) -> Option<Verdict> {
+        if shear.is_some()
+            && let Some(last) = self.shear_changes.last_mut()
+        {
+            *last = shear;
+        }
+        let is_due = self.changes.len() > self.judged && (!watches_wall || shear.is_some());
+        if !is_due {
+            return None;
+        }
+        self.judged = self.changes.len();
+        let criterion = self.criterion?;
+        Some(criterion.judge(self.completed.len() as u64, self.changes.last(), shear))
+    }
+
+    /// Largest change of a flow or pressure between the last two cycles, relative.
+    pub fn last_change(&self) -> Option<f64> {
+        self.changes.last().map(Change::largest)
+    }
+}

@@ -1,0 +1,143 @@
+//! Wall shear stress of a run: sampled, averaged over short windows, summed over cycles.
+
+use crate::case::Case;
+use crate::error::DriverError;
+use crate::flow::Flow;
+use crate::plan::Plan;
+use glam::DVec3;
+use vaso_fluid::Real;
+use vaso_geometry::SignedDistance;
+use vaso_metrics::{
+    BINS, NearWallDistance, ShearCycle, ShearCycles, ShearWindow, Viscosity, WallMesh, WallShear,
+};
+use vaso_particles::WallDistance;
+
+/// Samples in a window: they take the noise of single particles away before magnitudes are taken.
+const SAMPLES: f64 = 10.0;
+/// Advective steps from one sample to the next, at least: in fewer, particles have hardly moved, and their noise is the same.
+const STEPS: u64 = 4;
+
+/// Follows the wall shear stress on the vessel surface.
+pub struct WallObserver {
+    /// The surface it is told on.
+    pub mesh: WallMesh,
+    /// Mean of the last window \[Pa\]; `None` before the first one is full.
+    pub stress: Option<Vec<Option<DVec3>>>,
+    /// Indices of the last whole cycle.
+    pub cycle: Option<ShearCycle>,
+    /// Points without a value in the last sample.
+    pub missing: usize,
+    /// Mean of the time-averaged stress over the wall, of each whole cycle with its number.
+    means: Vec<(u64, f64)>,
+    shear: WallShear,
+    exact: SignedDistance,
+    window: ShearWindow,
+    length: f64,
+    next_sample: f64,
+    next_step: u64,
+    next_window: f64,
+    cycles: Option<ShearCycles>,
+}
+
+/// Distance to the wall as the fluid knows it.
+struct Coarse<'a, R>(&'a vaso_fluid::Fluid<R>);
+
+impl<R: Real> WallDistance for Coarse<'_, R> {
+    fn sample(&self, x: DVec3) -> (f64, DVec3) {
+        self.0.distance(x)
+    }
+}
+
+impl WallObserver {
+    /// Windows are a hundredth of the period, or the time between frames where that is shorter or there is no period.
+    pub(super) fn new(case: &Case, plan: &Plan) -> Result<Self, DriverError> {
+        let spacing = plan.numbers.spacing;
+        let mesh = WallMesh::new(&case.vessel, spacing);
+        let shear = WallShear::new(mesh.position.clone(), mesh.normal.clone(), spacing)?;
+        let every = case.scene.output.every;
+        let length = plan.period.map_or(every, |period| every.min(period / BINS as f64));
+        let cycles =
+            plan.period.map(|period| ShearCycles::new(mesh.normal.clone(), 0.0, period)).transpose()?;
+        Ok(Self {
+            stress: None,
+            cycle: None,
+            missing: 0,
+            means: Vec::new(),
+            exact: SignedDistance::wall(&case.vessel),
+            window: ShearWindow::new(mesh.position.len()),
+            length,
+            next_sample: 0.0,
+            next_step: 0,
+            next_window: length,
+            cycles,
+            shear,
+            mesh,
+        })
+    }
+
+    /// Whether stresses are summed over cycles.
+    pub(super) fn has_cycles(&self) -> bool {
+        self.cycles.is_some()
+    }
+
+    /// Mean over the wall of the time-averaged stress of a cycle \[Pa\], where it is whole.
+    pub fn mean_tawss(&self, cycle: u64) -> Option<f64> {
+        self.means.iter().find(|(number, _)| *number == cycle).map(|(_, mean)| *mean)
+    }
+
+    /// Takes the state after a step; gives the change of the time-averaged stress when a cycle ended that is not the first.
+    pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) -> Result<Option<f64>, DriverError> {
+        if flow.time < self.next_sample || flow.advective_steps < self.next_step {
+            return Ok(None);
+        }
+        self.next_step = flow.advective_steps + STEPS;
+        self.next_sample = flow.time + self.length / SAMPLES;
+        let (fluid, state) = (&flow.fluid, &flow.fluid.state);
+        let coarse = Coarse(fluid);
+        let distance = NearWallDistance { coarse: &coarse, exact: &self.exact, reach: self.shear.reach() };
+        let numbers = fluid.numbers();
+        let law = |rate: f64| numbers.rheology.map_or(numbers.viscosity, |law| law.viscosity(rate));
+        let viscosity = match numbers.rheology {
+            None => Viscosity::Constant(numbers.viscosity),
+            Some(_) => Viscosity::ShearRate(&law),
+        };
+        let sample = self.shear.evaluate(&state.position, &state.velocity, &distance, viscosity)?;
+        self.missing = sample.missing();
+        self.window.add(flow.time, &sample.stress)?;
+        if flow.time < self.next_window {
+            return Ok(None);
+        }
+        while self.next_window <= flow.time {
+            self.next_window += self.length;
+        }
+        self.close_window()
+    }
+
+    fn close_window(&mut self) -> Result<Option<f64>, DriverError> {
+        let Some((time, stress)) = self.window.take() else { return Ok(None) };
+        let change = self.put(time, &stress)?;
+        self.stress = Some(stress);
+        Ok(change)
+    }
+
+    /// Adds a mean to the sums of the cycle.
+    fn put(&mut self, time: f64, stress: &[Option<DVec3>]) -> Result<Option<f64>, DriverError> {
+        let Some(cycles) = &mut self.cycles else { return Ok(None) };
+        let Some(ended) = cycles.add(time, stress)? else { return Ok(None) };
+        let change = self.cycle.as_ref().and_then(|before| ended.change_from(before, &self.mesh.area));
+        self.means.extend(ended.mean_tawss(&self.mesh.area).map(|mean| (ended.number, mean)));
+        self.cycle = Some(ended);
+        Ok(change)
+    }
+
+    /// Closes the window that is going on and takes its mean to hold until `time` \[s\]: means stand for the middles of windows,
+    /// and the last cycle ends half a window later.
+    pub(super) fn finish(&mut self, time: f64) -> Result<(), DriverError> {
+        self.close_window()?;
+        if let Some(stress) = self.stress.take() {
+            self.put(time, &stress)?;
+            self.stress = Some(stress);
+        }
+        Ok(())
+    }
+}
