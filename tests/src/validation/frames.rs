@@ -89,7 +89,7 @@ fn means(mut pipe: Pipe) -> Means {
     );
     pipe.outlet = "condition = \"pressure\"\nvalue = \"0 Pa\"".into();
     let axis = pipe.axis.normalize();
-    let mut rings = vec![(0.0, 0.0_f64); RINGS];
+    let mut rings = [(0.0, 0.0_f64); RINGS];
     let mut line = Line::default();
     let mut early = Vec::new();
     let back = pipe.turn().inverse();
