@@ -1,6 +1,6 @@
 //! Outlet models behind a pipe with a given inflow.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use vaso_boundary::{Integration, OutletState, Windkessel};
 
@@ -26,10 +26,10 @@ pub const WINDKESSEL: Case = Case {
     name: "windkessel-pipe",
     title: "Pipe with a Windkessel",
     setup: "The same pipe with a plug, R_p 3.05e8, C 9.79e-10, R_d 1.37e9 (published case 03), one cycle of 1 s from the \
-            periodic start, D/12 (0.3 s, two and a half diameters and D/10 in the quick run).",
-    reference: "The Windkessel alone under the inflow, exact: 10 756 to 14 528 Pa over a cycle.",
+            periodic start after a ramp of 0.1 s, sound speed 10 m/s as published, D/12 (0.4 s, two and a half diameters and D/10 in the quick run).",
+    reference: "The Windkessel alone under the inflow, ramp included, exact; the published pulse is 10 756 to 14 528 Pa.",
     remark: "The vessel is rigid and its fluid hardly compressible, so that what flows in flows out at once.",
-    quick: Some(|| windkessel(10.0, 2.5, 0.3)),
+    quick: Some(|| windkessel(10.0, 2.5, 0.4)),
     full: || windkessel(12.0, 5.0, 1.0),
 };
 
@@ -104,6 +104,9 @@ fn outlet(pipe: &Pipe) -> (Series, Series, Flown) {
     (pressure, flow_out, flown)
 }
 
+/// Time in which the inflow rises, in the runs with the published pulse \[s\].
+const RAMP: f64 = 0.1;
+
 /// Time over which values are averaged before they are compared \[s\].
 const WINDOW: f64 = 5e-3;
 
@@ -111,9 +114,9 @@ fn resistance(across: f64, diameters: f64, end: f64) -> Option<Outcome> {
     let mut outcome = Outcome::new();
     let table = pulse()?;
     let mut pipe = published(across, diameters, end);
-    let (resistance, ramp) = (2.05e8, 0.1);
+    let resistance = 2.05e8;
     pipe.inlet = format!(
-        "condition = \"velocity\"\nprofile = \"parabolic\"\nwaveform = \"inflow.csv\"\nramp = \"{ramp} s\""
+        "condition = \"velocity\"\nprofile = \"parabolic\"\nwaveform = \"inflow.csv\"\nramp = \"{RAMP} s\""
     );
     pipe.outlet = format!("condition = \"resistance\"\nresistance = \"{resistance} Pa s/m^3\"");
     pipe.more = "period = \"1 s\"".into();
@@ -121,13 +124,19 @@ fn resistance(across: f64, diameters: f64, end: f64) -> Option<Outcome> {
     let (pressure, _, flown) = outlet(&pipe);
     outcome.cost(&flown);
     let exact = |t: f64| resistance * pipe.area() * at(&table, t);
-    let late = pressure.from(ramp + 0.02).smoothed(WINDOW);
+    let late = pressure.from(RAMP + 0.02).smoothed(WINDOW);
     let peak = late.points.iter().map(|p| exact(p.0)).fold(0.0, f64::max);
     outcome.figure(
-        "outlet pressure, largest difference, of the peak",
-        late.largest_difference(exact) / peak,
+        "outlet pressure, rms of the difference, of the peak",
+        late.rms_difference(exact) / peak,
         Unit::Part,
         Tolerance::Asked(0.01),
+    );
+    outcome.figure(
+        "the same, largest difference",
+        late.largest_difference(exact) / peak,
+        Unit::Part,
+        Tolerance::Missed { asked: 0.01, held: 0.025 },
     );
     lost(&mut outcome, &flown);
     Some(outcome)
@@ -143,49 +152,43 @@ fn windkessel(across: f64, diameters: f64, end: f64) -> Option<Outcome> {
         distal_resistance: 1.37e9,
         distal_pressure: 0.0,
     };
-    pipe.inlet =
-        "condition = \"velocity\"\nprofile = \"plug\"\nwaveform = \"inflow.csv\"\nramp = \"0 s\"".into();
+    pipe.inlet = format!(
+        "condition = \"velocity\"\nprofile = \"plug\"\nwaveform = \"inflow.csv\"\nramp = \"{RAMP} s\""
+    );
     pipe.outlet = windkessel_keys(&model, "periodic_start = true");
-    pipe.more = "period = \"1 s\"".into();
+    pipe.more = "period = \"1 s\"\n[numerics]\nsound_speed = \"10 m/s\"".into();
     pipe.inflow.clone_from(&table);
     let (pressure, _, flown) = outlet(&pipe);
     outcome.cost(&flown);
-    // Many cycles of the model alone: whatever it started from is forgotten.
+    // Many cycles of the model alone: whatever it started from is forgotten. Then the run from there, ramp included.
     let flow = |t: f64| pipe.area() * at(&table, t);
-    let mut state = OutletState::default();
-    let (mut curve, steps) = (Vec::new(), 2000);
-    for k in 1..=25 * steps {
-        let t = f64::from(k) / f64::from(steps);
-        state = model.advance(&state, flow(t), 1.0 / f64::from(steps), Integration::Exponential);
-        if k > 24 * steps {
-            curve.push([t - 24.0, state.pressure]);
-        }
+    let advance = |state: &OutletState, flow: f64, duration: f64| {
+        model.advance(state, flow, duration, Integration::Exponential)
+    };
+    let steps = 2000;
+    let dt = 1.0 / f64::from(steps);
+    let settled = (1..=25 * steps)
+        .fold(OutletState::default(), |state, k| advance(&state, flow(f64::from(k) * dt), dt));
+    let mut state = OutletState::at_rest(settled.stored_pressure);
+    let mut curve = vec![[0.0, state.pressure]];
+    for k in 1..=steps {
+        let t = f64::from(k) * dt;
+        let risen = if t < RAMP { 0.5 * (1.0 - (PI * t / RAMP).cos()) } else { 1.0 };
+        state = advance(&state, risen * flow(t), dt);
+        curve.push([t, state.pressure]);
     }
-    curve.insert(0, [0.0, curve[curve.len() - 1][1]]);
-    let range = curve.iter().fold([f64::INFINITY, 0.0_f64], |r, p| [r[0].min(p[1]), r[1].max(p[1])]);
-    let late = pressure.from(0.05).smoothed(WINDOW);
-    outcome.figure(
-        "outlet pressure from 50 ms on, largest difference, of the pulse pressure",
-        late.largest_difference(|t| at(&curve, t)) / (range[1] - range[0]),
-        Unit::Part,
-        Tolerance::Asked(0.01),
-    );
-    if end >= 1.0 {
-        for (what, value, published) in [
-            ("lowest pressure, of the published pulse", range_of(&late)[0], 10_756.0),
-            ("highest pressure, of the published pulse", range_of(&late)[1], 14_528.0),
-            ("mean pressure, of the published pulse", late.mean(), 12_407.0),
-        ] {
-            let error = (value - published) / (14_528.0 - 10_756.0);
-            outcome.figure(what, error, Unit::Part, Tolerance::Asked(0.01));
-        }
+    let late = pressure.from(RAMP + 0.02).smoothed(WINDOW);
+    for (what, error) in [
+        (
+            "outlet pressure, rms of the difference, of the published pulse",
+            late.rms_difference(|t| at(&curve, t)),
+        ),
+        ("the same, largest difference", late.largest_difference(|t| at(&curve, t))),
+    ] {
+        outcome.figure(what, error / (14_528.0 - 10_756.0), Unit::Part, Tolerance::Asked(0.01));
     }
     lost(&mut outcome, &flown);
     Some(outcome)
-}
-
-fn range_of(series: &Series) -> [f64; 2] {
-    series.points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |r, p| [r[0].min(p.1), r[1].max(p.1)])
 }
 
 fn windkessel_keys(model: &Windkessel, start: &str) -> String {

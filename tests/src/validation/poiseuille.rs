@@ -55,8 +55,8 @@ fn run(ladder: &[f64]) -> Option<Outcome> {
             outcome.figure(format!("D/{across}: {what}"), error, Unit::Part, tolerance);
         };
         part("velocity, rms, of the peak", e.velocity, 0.008, 0.022);
-        part("wall shear stress, mean", e.shear_mean, 0.03, 0.06);
-        part("wall shear stress, rms over the wall", e.shear_rms, 0.03, 0.08);
+        part("wall shear stress, mean", e.shear_mean, 0.03, 0.1);
+        part("wall shear stress, rms over the wall", e.shear_rms, 0.03, 0.1);
         part("inflow less outflow", e.balance, 0.002, 0.01);
         outcome.figure(format!("D/{across}: flow"), e.flow, Unit::Part, Tolerance::Held(0.01));
         outcome.figure(
@@ -85,7 +85,7 @@ fn long() -> Option<Outcome> {
     for (what, error, held) in [
         ("velocity, rms, of the peak", e.velocity, 0.035),
         ("flow", e.flow, 0.01),
-        ("wall shear stress, mean", e.shear_mean, 0.08),
+        ("wall shear stress, mean", e.shear_mean, 0.1),
         ("pressure gradient, one diameter from the ends", e.gradient, 0.06),
         ("inflow less outflow", e.balance, 0.01),
     ] {
