@@ -17,10 +17,11 @@ pub const CASE: Case = Case {
             equal area, flow and pressure gradient, means of the last two thirds.",
     reference: "The first of the four, whose sound speed and steps the others are given.",
     remark: "Particles belong to the vessel, so all four start from the same ones up to rounding, that of the surface file \
-             included. It grows in any flow of particles until single ones have nothing in common; means then differ by what \
-             is left of the particle noise, some tenths of a per cent. The change of the unit alone leaves all but the last \
-             bits. What does depend on the frame is the speed the planner expects in the narrowest section, which is counted on \
-             a grid along the axes of space: sound speed and steps of the turned pipe would be 16 % others.",
+             included, which a metre from the origin is 6e-8 m, or 2e-4 spacings. It grows in any flow of particles until single \
+             ones have nothing in common; means then differ by what is left of the particle noise, one or two tenths of a per \
+             cent. The change of the unit alone leaves them within 0.02 %. What does depend on the frame is the speed the \
+             planner expects in the narrowest section, which is counted on a grid along the axes of space: sound speed and \
+             steps of the turned pipe would be 16 % others.",
     quick: Some(|| run(10.0)),
     full: || run(16.0),
 };
@@ -69,7 +70,7 @@ fn run(across: f64) -> Option<Outcome> {
         part(
             "velocity of single particles after 50 ms, rms of the difference, of the largest velocity",
             (squares / base.early.len() as f64).sqrt() / top,
-            Tolerance::Asked(1e-3),
+            Tolerance::Missed { asked: 1e-3, held: if across >= 16.0 { 0.2 } else { 1e-3 } },
         );
         let rings = || other.rings.iter().zip(&base.rings);
         let worst = rings().map(|(a, b)| (a - b).abs() / base.rings[0]).fold(0.0, f64::max);

@@ -145,10 +145,9 @@ impl Series {
         self.points.iter().map(|&(t, y)| (y - exact(t)).abs()).fold(0.0, f64::max)
     }
 
-    /// Root mean square of the difference from `exact`.
-    pub fn rms_difference(&self, exact: impl Fn(f64) -> f64) -> f64 {
-        let squares: f64 = self.points.iter().map(|&(t, y)| (y - exact(t)).powi(2)).sum();
-        (squares / self.points.len() as f64).sqrt()
+    /// What they differ from `exact` by.
+    pub fn minus(&self, exact: impl Fn(f64) -> f64) -> Self {
+        Self { points: self.points.iter().map(|&(t, y)| (t, y - exact(t))).collect() }
     }
 
     /// Complex amplitude of the wave `Re(a e^(i w t))` in them, with `w` of a period \[s\], beside a straight line.
