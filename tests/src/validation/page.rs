@@ -38,30 +38,31 @@ pub fn save(results: &Results) {
 /// What nothing on the page shows.
 const LIMITS: &str = "\
 - **Walls that move.** All of this is rigid.
-- **Vessels of persons.** The geometry here is round pipes, one bifurcation and one nozzle. What a surface from a scanner adds \
-(facets, tilted caps, side branches a few spacings wide) shows in `tests/tests/carotid.rs`, against no measurement.
-- **Turbulence.** The highest Reynolds number is 1900, at the peak of a beat. There is no turbulence model, and no case in \
-which the flow becomes turbulent.
-- **Spacings other than these.** Errors are those of ten to thirty particles across. A branch four particles wide has none of \
-them.
-- **Wall shear stress on a wall that is not straight.** On exact velocities it is tested in `crates/metrics`; out of a run \
-only in a pipe.
-- **Long runs.** Three seconds and three beats at most. A slow drift of the number of particles would not show.
+- **Vessels of persons.** The geometry here is round pipes, one bifurcation and one nozzle. What a surface from a scanner
+  adds (facets, tilted caps, side branches a few spacings wide) shows in `tests/tests/carotid.rs`, against no measurement.
+- **Turbulence.** The highest Reynolds number is 1900, at the peak of a beat. There is no turbulence model, and no case in
+  which the flow becomes turbulent.
+- **Spacings other than these.** Errors are those of ten to twenty particles across. A branch four particles wide has none
+  of them.
+- **Wall shear stress on a wall that is not straight.** On exact velocities it is tested in `crates/metrics`; out of a run
+  only in a pipe.
+- **Long runs.** Three seconds and two beats at most. A slow drift of the number of particles would not show.
+- **Pressure far below the reference.** Where a flow is slowed down hard the fluid thins; `svfsi-pipe` shows by how much.
 - **Outlets as a person has them.** That a Windkessel is solved exactly says nothing about its parameters.
-- **Parts that agree by construction.** The pressure at a single outlet model is its own equation under the flow that leaves, \
-and the flow at a velocity inlet is imposed: these figures hold the coupling, not the flow in between.
+- **Parts that agree by construction.** The pressure at a single outlet model is its own equation under the flow that
+  leaves, and the flow at a velocity inlet is imposed: these figures hold the coupling, not the flow in between.
 ";
 
 /// The page.
 pub fn render(results: &Results) -> String {
     let mut page = String::from(
         "# Validation\n\n\
-         Made by `cargo run --release -p vaso-tests --example validation` from `tests/validation/results.json`; do not edit. \
-         With names of cases behind `--` these are run anew first (`all` for all of them).\n\n\
-         D/n is a spacing of an nth of the diameter. Errors have a sign where one has a meaning. Where a tolerance is not \
-         asked for at a resolution, the test holds the figure in brackets, a little above what was measured. Times are those \
-         of the loop on a shared machine, and vary by a factor of two. The same cases run coarser and shorter with the tests \
-         (`tests/tests/validation.rs`).\n",
+         Made by `cargo run --release -p vaso-tests --example validation` from `tests/validation/results.json`; do not\n\
+         edit. Cases named behind `--` are run anew first, all of them with `all`.\n\n\
+         D/n is a spacing of an nth of the diameter. Errors have a sign where one has a meaning. A tolerance in brackets is\n\
+         not asked for: nothing is at that resolution, and the tests hold what was measured with a little room. Times are\n\
+         those of the loop on a machine busy with other work, up to five times those of a quiet one. The same cases run\n\
+         coarser and shorter with the tests (`tests/tests/validation.rs`).\n",
     );
     page += "\n| case | figures | within what is asked | missed | largest number of particles | time |\n|---|---|---|---|---|---|\n";
     for case in CASES {
@@ -112,6 +113,7 @@ pub fn render(results: &Results) -> String {
 fn is_missed(figure: &Figure) -> bool {
     match figure.tolerance {
         Tolerance::Missed { asked, .. } => figure.error.abs() > asked,
+        Tolerance::Held(_) => false,
         _ => !figure.holds(),
     }
 }
