@@ -79,7 +79,7 @@ impl Distribution {
     /// When there is not one area a value.
     pub fn by_area(value: &[f64], area: &[f64]) -> Option<Self> {
         assert_eq!(value.len(), area.len(), "one area a value");
-        let total: f64 = area.iter().sum();
+        let unknown: f64 = value.iter().zip(area).filter(|(v, _)| v.is_nan()).map(|(_, a)| a).sum();
         let pairs = value.iter().copied().zip(area.iter().copied());
         let mut known: Vec<(f64, f64)> = pairs.filter(|(v, a)| !v.is_nan() && *a > 0.0).collect();
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -98,7 +98,7 @@ impl Distribution {
             percentile_1: percentile(0.01),
             median: percentile(0.5),
             percentile_99: percentile(0.99),
-            missing: ((total - covered) / total).max(0.0),
+            missing: unknown / (covered + unknown),
         })
     }
 

@@ -19,7 +19,7 @@ pub(crate) fn cycles(summary: &Summary) -> String {
         Some(EndReason::Steady) => " The run ended because the flow had become steady.",
         _ => "",
     };
-    format!("<p>{} whole cycles.{why}</p>\n", count(summary.cycles.len() as u64))
+    format!("<p>{} whole cycles were followed.{why}</p>\n", count(summary.cycles.len() as u64))
         + &convergence(&summary.cycles)
         + &openings(last)
         + &drops(last)
