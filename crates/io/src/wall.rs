@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn percentiles_go_by_area() {
         let value: Vec<f64> = (0..1000).map(|k| f64::from(k * 271 % 1000)).collect();
-        let area: Vec<f64> = value.iter().map(|v| if *v < 500.0 { 3.0 } else { 1.0 }).collect();
+        let area: Vec<f64> = value.iter().map(|v| if *v < 500.0 { 0.3 } else { 0.1 }).collect();
         let found = Distribution::by_area(&value, &area).expect("values");
         assert!((found.mean - (0.75 * 249.5 + 0.25 * 749.5)).abs() < 1e-9, "{found:?}");
         assert!((found.median - 1000.0 / 3.0).abs() <= 1.0, "{found:?}");
