@@ -89,6 +89,11 @@ impl Pipe {
         (z, (x - self.origin - z * along).length())
     }
 
+    /// Rotation from the z axis to the axis.
+    pub fn turn(&self) -> DQuat {
+        DQuat::from_rotation_arc(DVec3::Z, self.axis.normalize())
+    }
+
     /// Case and plan.
     ///
     /// # Panics
@@ -97,7 +102,7 @@ impl Pipe {
         let folder = tempfile::tempdir().expect("a temporary folder can be had");
         let (name, metres) = self.unit;
         let surface = shapes::pipe(self.radius(), self.length, DVec3::Z, SEGMENTS);
-        let turn = DQuat::from_rotation_arc(DVec3::Z, self.axis.normalize());
+        let turn = self.turn();
         write_stl(&folder.path().join("pipe.stl"), &surface.map(|v| (turn * v + self.origin) / metres))
             .expect("a temporary file can be written");
         let table = self.inflow.iter().fold(String::new(), |mut text, [t, value]| {

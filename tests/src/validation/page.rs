@@ -110,7 +110,10 @@ pub fn render(results: &Results) -> String {
 }
 
 fn is_missed(figure: &Figure) -> bool {
-    matches!(figure.tolerance, Tolerance::Missed { .. }) || !figure.holds()
+    match figure.tolerance {
+        Tolerance::Missed { asked, .. } => figure.error.abs() > asked,
+        _ => !figure.holds(),
+    }
 }
 
 fn time(outcome: &Outcome) -> String {

@@ -130,7 +130,7 @@ fn errors(across: f64, diameters: f64, end: f64, slab: [f64; 2]) -> Errors {
                 carried += u * state.mass[i] / pipe.density;
             }
         }
-        if steps as u64 % 4 == 0 {
+        if (steps as u64).is_multiple_of(4) {
             shear.take(state);
         }
     });
