@@ -235,6 +235,11 @@ impl<R: Real> Fluid<R> {
         ]
     }
 
+    /// Acceleration of particle `i` by viscosity \[m/s^2\], as [`Self::viscosity`] has found it.
+    pub fn viscous_acceleration(&self, i: usize) -> DVec3 {
+        self.frozen[i].acceleration
+    }
+
     /// Pressure of particle `i` \[Pa\] relative to the reference pressure, the mean over the last advective step.
     pub fn pressure(&self, i: usize) -> f64 {
         self.state.pressure[i]

@@ -38,7 +38,7 @@ pub struct CycleSummary {
     /// Between the pairs of openings that the case names.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pressure_drops: Vec<PressureDropSummary>,
-    /// Mean over the wall of the time-averaged wall shear stress \[Pa\]; absent where it was not asked for.
+    /// Mean over the wall outside the buffers of the time-averaged wall shear stress \[Pa\]; absent where it was not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_tawss_pa: Option<f64>,
 }

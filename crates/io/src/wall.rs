@@ -79,7 +79,7 @@ impl Distribution {
     /// When there is not one area a value.
     pub fn by_area(value: &[f64], area: &[f64]) -> Option<Self> {
         assert_eq!(value.len(), area.len(), "one area a value");
-        let total: f64 = area.iter().sum();
+        let unknown: f64 = value.iter().zip(area).filter(|(v, _)| v.is_nan()).map(|(_, a)| a).sum();
         let pairs = value.iter().copied().zip(area.iter().copied());
         let mut known: Vec<(f64, f64)> = pairs.filter(|(v, a)| !v.is_nan() && *a > 0.0).collect();
         known.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -98,7 +98,7 @@ impl Distribution {
             percentile_1: percentile(0.01),
             median: percentile(0.5),
             percentile_99: percentile(0.99),
-            missing: ((total - covered) / total).max(0.0),
+            missing: unknown / (covered + unknown),
         })
     }
 
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn percentiles_go_by_area() {
         let value: Vec<f64> = (0..1000).map(|k| f64::from(k * 271 % 1000)).collect();
-        let area: Vec<f64> = value.iter().map(|v| if *v < 500.0 { 3.0 } else { 1.0 }).collect();
+        let area: Vec<f64> = value.iter().map(|v| if *v < 500.0 { 0.3 } else { 0.1 }).collect();
         let found = Distribution::by_area(&value, &area).expect("values");
         assert!((found.mean - (0.75 * 249.5 + 0.25 * 749.5)).abs() < 1e-9, "{found:?}");
         assert!((found.median - 1000.0 / 3.0).abs() <= 1.0, "{found:?}");

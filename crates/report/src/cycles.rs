@@ -19,10 +19,11 @@ pub(crate) fn cycles(summary: &Summary) -> String {
         Some(EndReason::Steady) => " The run ended because the flow had become steady.",
         _ => "",
     };
-    format!("<p>{} whole cycles.{why}</p>\n", count(summary.cycles.len() as u64))
-        + &convergence(&summary.cycles)
-        + &openings(last)
-        + &drops(last)
+    let followed = match summary.cycles.len() {
+        1 => "One whole cycle was followed.".to_owned(),
+        n => format!("{} whole cycles were followed.", count(n as u64)),
+    };
+    format!("<p>{followed}{why}</p>\n") + &convergence(&summary.cycles) + &openings(last) + &drops(last)
 }
 
 fn percent(part: Option<f64>) -> String {

@@ -1,7 +1,7 @@
 //! What a run does not prove, said next to its results.
 
 use crate::html::prose;
-use vaso_io::{EndReason, PressureDropSummary, Status, Summary};
+use vaso_io::{EffectEntry, EndReason, PressureDropSummary, Status, Summary};
 
 /// The list of limits, those that always hold and those this run brought on itself.
 pub(crate) fn limits(summary: &Summary) -> String {
@@ -49,7 +49,8 @@ fn limits_of(summary: &Summary) -> Vec<String> {
     if let Some(limit) = unlike_cycles(summary) {
         limits.push(limit);
     }
-    if summary.wall.is_some() {
+    let has_shear = |effect: &EffectEntry| effect.on && effect.name == "metrics.wall_shear";
+    if summary.wall.is_some() || summary.effects.iter().any(has_shear) {
         limits.push(
             "Wall shear stress is fitted to the particles within about 2.6 spacings of the wall. Where the boundary layer is \
              not much thicker than that it lags behind the flow and is too weak; `docs/theory/metrics.md` says by how much."
@@ -105,7 +106,7 @@ fn unlike_cycles(summary: &Summary) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vaso_io::{CycleSummary, EffectEntry, PeriodicitySummary};
+    use vaso_io::{CycleSummary, PeriodicitySummary};
 
     #[test]
     fn cycles_that_are_not_alike_are_said() {

@@ -39,7 +39,7 @@ fn page(out: &Path, summary: &Summary) -> String {
         section("limits", "What this does not prove", &limits::limits(summary)),
     ];
     let foot = format!(
-        "Made by vaso {} from <code>summary.json</code>, <code>openings.csv</code> and the particle series beside this \
+        "Made by vaso {} from <code>summary.json</code>, <code>openings.csv</code> and the series beside this \
          file. Quantities are SI or marked with their unit.",
         escape(&summary.vaso_version)
     );

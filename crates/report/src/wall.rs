@@ -1,6 +1,5 @@
 //! The wall: pictures of its stresses, and what they amount to.
 
-use crate::ReportError;
 use crate::html::{Column, escape, prose, table};
 use crate::picture::{Quantity, draw_surface};
 use crate::scale::{count, number};
@@ -33,8 +32,9 @@ pub(crate) fn wall(out: &Path, summary: &Summary) -> String {
 
 fn figures(reader: &SeriesReader, path: &Path, summary: &Summary) -> Result<String, IoError> {
     let triangles = reader.triangles()?;
+    // A wall of particles has no stress of the blood on it.
     let Some(frame) = reader.last_frame()?.filter(|_| !triangles.is_empty()) else {
-        return Ok(note(&ReportError::NoFrame { path: path.to_owned() }));
+        return Ok(String::new());
     };
     let cycle = match summary.wall.as_ref().and_then(|wall| wall.cycle) {
         Some(cycle) => format!("over cycle {}, from both sides", cycle + 1),

@@ -80,7 +80,7 @@ impl Builder<'_> {
         let probes = root.sections("probe").iter().map(|section| self.probe(section)).collect();
         let output =
             root.section("output").map(|section| self.output(section, &run, root.has("blood"), &wall));
-        self.flow_reserve(root);
+        self.flow_reserve(root, run.as_ref());
         self.unique_names(root.sections("opening"));
         self.unique_names(root.sections("probe"));
         self.outlets(root);
@@ -155,11 +155,15 @@ impl Builder<'_> {
         }
     }
 
-    /// Pairs must be of two openings of the case.
-    fn flow_reserve(&mut self, root: &Section) {
+    /// Pairs must be of two openings of the case, in a run of a whole cycle to take means over.
+    fn flow_reserve(&mut self, root: &Section, run: Option<&Run>) {
         let Some(output) = root.section("output") else { return };
         let names: Vec<&str> = root.sections("opening").iter().filter_map(|s| s.text("name")).collect();
         let key = "fractional_flow_reserve";
+        if output.has(key) && run.is_some_and(|run| run.period.is_none() || !run.holds_cycles(1)) {
+            let message = "is of means over a cycle, and needs `run.period` and a run of a whole one";
+            self.report(output, key, message, "", "give the period, let the run last, or remove the key");
+        }
         for pair in output.pairs(key) {
             if pair[0] == pair[1] {
                 let message = format!("\"{}\" is compared with itself", pair[0]);

@@ -232,7 +232,8 @@ pub struct Output {
     pub fields: Vec<Field>,
     /// Interval of checkpoints \[s\]; `None` writes one at the end or on interruption.
     pub checkpoint_every: Option<f64>,
-    /// Pairs of different openings, proximal and distal by name, whose fractional flow reserve is told.
+    /// Pairs of different openings, proximal and distal by name, whose pressure drop and fractional flow reserve over each
+    /// cycle are told.
     pub fractional_flow_reserve: Vec<[String; 2]>,
 }
 

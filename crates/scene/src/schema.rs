@@ -188,5 +188,5 @@ pub(crate) const KEYS: &[Key] = &[
     key("output.table_every", Quantity(TIME, Range::POSITIVE), Optional("a tenth of `every`"), "Interval of `openings.csv` and `probes.csv`."),
     key("output.fields", Choices(Field::WORDS), Optional("velocity and pressure with blood, displacement and von_mises with a wall that deforms"), "Fields of the series. `tawss`, `osi`, `rrt`, `ecap`, `transverse_wss` and `peak_wss` are of a cycle and need `run.period`."),
     key("output.checkpoint_every", Quantity(TIME, Range::POSITIVE), Optional("at the end and on interruption"), "Interval of checkpoints."),
-    key("output.fractional_flow_reserve", Pairs, Optional("none"), "Pairs of openings, [\"proximal\", \"distal\"], whose fractional flow reserve is told."),
+    key("output.fractional_flow_reserve", Pairs, Optional("none"), "Pairs of openings, [\"proximal\", \"distal\"], whose pressure drop and fractional flow reserve over each cycle are told; needs `run.period`."),
 ];

@@ -91,6 +91,11 @@ impl Observers {
     /// # Errors
     /// As [`Self::after_step`].
     pub fn finish<R: Real>(&mut self, flow: &Flow<R>) -> Result<(), DriverError> {
-        self.wall.as_mut().map_or(Ok(()), |wall| wall.finish(flow.time))
+        if let Some(wall) = &mut self.wall {
+            let shear = wall.finish(flow.time)?;
+            // The run ends here anyhow; what counts is that the change is noted.
+            let _verdict = self.openings.as_mut().and_then(|openings| openings.judge(true, shear));
+        }
+        Ok(())
     }
 }

@@ -19,6 +19,7 @@ pub struct OpeningObserver {
     /// Change of the time-averaged wall shear stress of each but the first, where it is known.
     pub shear_changes: Vec<Option<f64>>,
     judged: usize,
+    has_begun: bool,
 }
 
 impl OpeningObserver {
@@ -40,6 +41,7 @@ impl OpeningObserver {
             changes: Vec::new(),
             shear_changes: Vec::new(),
             judged: 0,
+            has_begun: false,
         })
     }
 
@@ -50,6 +52,11 @@ impl OpeningObserver {
             kinetic_power: r.kinetic_power,
         };
         let samples: Vec<OpeningSample> = flow.readings.iter().map(sample).collect();
+        if !self.has_begun {
+            // Nothing has been measured at the start, and the first step is short.
+            self.cycles.add(0.0, &samples)?;
+            self.has_begun = true;
+        }
         if let Some(cycle) = self.cycles.add(flow.time, &samples)? {
             if let Some(before) = self.completed.last() {
                 self.changes.push(Change::between(before, &cycle));

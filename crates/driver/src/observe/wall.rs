@@ -5,6 +5,7 @@ use crate::error::DriverError;
 use crate::flow::Flow;
 use crate::plan::Plan;
 use glam::DVec3;
+use vaso_boundary::BUFFER_LENGTH;
 use vaso_fluid::Real;
 use vaso_geometry::SignedDistance;
 use vaso_metrics::{
@@ -29,6 +30,8 @@ pub struct WallObserver {
     pub missing: usize,
     /// Mean of the time-averaged stress over the wall, of each whole cycle with its number.
     means: Vec<(u64, f64)>,
+    /// Area of each point \[m^2\], zero within the buffers: there the flow is imposed, and the stress says nothing of the vessel.
+    pub counted: Vec<f64>,
     shear: WallShear,
     exact: SignedDistance,
     window: ShearWindow,
@@ -63,6 +66,7 @@ impl WallObserver {
             cycle: None,
             missing: 0,
             means: Vec::new(),
+            counted: counted_area(&mesh, BUFFER_LENGTH * spacing),
             exact: SignedDistance::wall(&case.vessel),
             window: ShearWindow::new(mesh.position.len()),
             length,
@@ -80,7 +84,7 @@ impl WallObserver {
         self.cycles.is_some()
     }
 
-    /// Mean over the wall of the time-averaged stress of a cycle \[Pa\], where it is whole.
+    /// Mean over the wall outside the buffers of the time-averaged stress of a cycle \[Pa\], where it is whole.
     pub fn mean_tawss(&self, cycle: u64) -> Option<f64> {
         self.means.iter().find(|(number, _)| *number == cycle).map(|(_, mean)| *mean)
     }
@@ -124,20 +128,25 @@ impl WallObserver {
     fn put(&mut self, time: f64, stress: &[Option<DVec3>]) -> Result<Option<f64>, DriverError> {
         let Some(cycles) = &mut self.cycles else { return Ok(None) };
         let Some(ended) = cycles.add(time, stress)? else { return Ok(None) };
-        let change = self.cycle.as_ref().and_then(|before| ended.change_from(before, &self.mesh.area));
-        self.means.extend(ended.mean_tawss(&self.mesh.area).map(|mean| (ended.number, mean)));
+        let change = self.cycle.as_ref().and_then(|before| ended.change_from(before, &self.counted));
+        self.means.extend(ended.mean_tawss(&self.counted).map(|mean| (ended.number, mean)));
         self.cycle = Some(ended);
         Ok(change)
     }
 
     /// Closes the window that is going on and takes its mean to hold until `time` \[s\]: means stand for the middles of windows,
     /// and the last cycle ends half a window later.
-    pub(super) fn finish(&mut self, time: f64) -> Result<(), DriverError> {
-        self.close_window()?;
-        if let Some(stress) = self.stress.take() {
-            self.put(time, &stress)?;
-            self.stress = Some(stress);
-        }
-        Ok(())
+    pub(super) fn finish(&mut self, time: f64) -> Result<Option<f64>, DriverError> {
+        let change = self.close_window()?;
+        let Some(stress) = self.stress.take() else { return Ok(change) };
+        let last = self.put(time, &stress)?;
+        self.stress = Some(stress);
+        Ok(last.or(change))
     }
+}
+
+/// Area of each point of the mesh \[m^2\], zero up to `length` \[m\] from an opening.
+fn counted_area(mesh: &WallMesh, length: f64) -> Vec<f64> {
+    let area = mesh.area.iter().zip(&mesh.rim_distance);
+    area.map(|(area, rim)| if *rim > length { *area } else { 0.0 }).collect()
 }

@@ -1,7 +1,7 @@
 //! What the summary says of cycles, energy and the wall.
 
 use crate::observe::{EnergyObserver, Observers, OpeningObserver, WallObserver};
-use vaso_boundary::{BUFFER_LENGTH, Port};
+use vaso_boundary::Port;
 use vaso_io::{
     CycleSummary, Distribution, EnergySummary, LOW_TAWSS, OpeningCycleSummary, PeriodicitySummary,
     PressureDropSummary, WallSummary,
@@ -86,33 +86,26 @@ pub(super) fn energy(energy: &EnergyObserver, ports: &[Port]) -> EnergySummary {
     }
 }
 
-/// Stresses of the wall outside the buffers, for particles of `spacing` \[m\].
-pub(super) fn wall(wall: &WallObserver, spacing: f64) -> WallSummary {
-    let mesh = &wall.mesh;
-    let counts = |rim: &f64| *rim > BUFFER_LENGTH * spacing;
-    let area: Vec<f64> = mesh
-        .area
-        .iter()
-        .zip(&mesh.rim_distance)
-        .map(|(area, rim)| if counts(rim) { *area } else { 0.0 })
-        .collect();
+/// Stresses of the wall outside the buffers.
+pub(super) fn wall(wall: &WallObserver) -> WallSummary {
+    let (mesh, area) = (&wall.mesh, &wall.counted);
     let magnitude: Option<Vec<f64>> = wall
         .stress
         .as_ref()
         .map(|stress| stress.iter().map(|s| s.map_or(f64::NAN, |s| s.length())).collect());
     let fields = wall.cycle.as_ref().map(vaso_metrics::ShearCycle::fields);
-    let index = |k: usize| fields.as_ref().and_then(|f| Distribution::by_area(&f[k], &area));
+    let index = |k: usize| fields.as_ref().and_then(|f| Distribution::by_area(&f[k], area));
     WallSummary {
         points: mesh.position.len() as u64,
         triangles: mesh.triangles.len() as u64,
         area_m2: mesh.area.iter().sum(),
         counted_area_m2: area.iter().sum(),
-        wss_pa: magnitude.and_then(|values| Distribution::by_area(&values, &area)),
+        wss_pa: magnitude.and_then(|values| Distribution::by_area(&values, area)),
         cycle: wall.cycle.as_ref().map(|cycle| cycle.number),
         tawss_pa: index(0),
         low_tawss_area_fraction: fields
             .as_ref()
-            .and_then(|f| Distribution::fraction_below(LOW_TAWSS, &f[0], &area)),
+            .and_then(|f| Distribution::fraction_below(LOW_TAWSS, &f[0], area)),
         osi: index(1),
         rrt_1_pa: index(2),
         ecap_1_pa: index(3),

@@ -59,7 +59,7 @@ impl Results {
             end_reason: None,
             cycles: account::cycles(&self.observers, &case.scene.output.fractional_flow_reserve),
             energy: Some(account::energy(&self.observers.energy, flow.openings.ports())),
-            wall: self.observers.wall.as_ref().map(|w| account::wall(w, plan.numbers.spacing)),
+            wall: self.observers.wall.as_ref().map(account::wall),
             surface: Some(surface_report(&case.vessel)),
             numbers: Some(numbers(plan)),
             warnings: plan.warnings.clone(),
