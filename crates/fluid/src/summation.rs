@@ -2,7 +2,6 @@
 
 use crate::cap::CapZone;
 use crate::fluid::{Fluid, numbered};
-use crate::law::density::CapMean;
 use crate::law::moments::{Moments, SUMS};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,7 +12,7 @@ impl<R: Real> Fluid<R> {
     /// `rho_sum = (sum m W + rho0 sum_wall V W) / S0`, and finds the correction matrices.
     ///
     /// Particles in a buffer keep the density of the continuity equation: their kernel sum lacks the
-    /// side beyond the cap. It is blended with the mean of that around them instead, see [`Self::smooth_buffers`].
+    /// side beyond the cap.
     pub fn summation(&mut self, zones: &[CapZone]) {
         let n = self.state.len();
         let rho0 = self.numbers.rest_density;
@@ -26,9 +25,6 @@ impl<R: Real> Fluid<R> {
             self.record(i, mass / (rho0 + self.state.density_change[i]), mass / rho0)
         });
 
-        self.current = current;
-        self.smooth_buffers(zones);
-        let current = std::mem::take(&mut self.current);
         let value = self.kernel.value_scale();
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
@@ -79,49 +75,6 @@ impl<R: Real> Fluid<R> {
                 }
             });
         self.current = current;
-    }
-
-    /// Blends the density of particles in a buffer towards its kernel mean over an even part of the support.
-    ///
-    /// Neither the kernel sum nor the flow that comes after holds the grain of the density there. Where blood goes in and out slowly,
-    /// particles that were put in close to others would raise it until the buffer swings.
-    fn smooth_buffers(&mut self, zones: &[CapZone]) {
-        if zones.is_empty() {
-            return;
-        }
-        let mut marked = std::mem::take(&mut self.next);
-        let (current, frozen, state) = (&self.current, &self.frozen, &self.state);
-        marked.fill(|i| {
-            let mut record = current.as_slice()[i];
-            record[4] = R::pack(state.density_change[i]);
-            record[7] = R::pack(frozen[i].cap_depth);
-            record
-        });
-        let law = CapMean { sharpness: self.kernel.support() / self.numbers.spacing };
-        let gather =
-            Gather { frame: &self.frame, own: &marked, other: &marked, own_second: None, other_second: None };
-        let (isa, zone_of, blend) = (self.isa, &self.zone_of, self.numbers.density_blend);
-        (self.state.density_change.par_chunks_mut(CHUNK), self.rows.chunks())
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(c, (density_change, row))| {
-                let in_buffer = |k: usize| {
-                    zone_of[c * CHUNK + k].checked_sub(1).is_some_and(|zone| zones[zone as usize].in_buffer)
-                };
-                if !(0..density_change.len()).any(in_buffer) {
-                    return;
-                }
-                let mut sums = [[0.0; 2]; CHUNK];
-                sweep(isa, &law, &gather, numbered(row, c), Store::None, &mut sums);
-                for k in (0..density_change.len()).filter(|&k| in_buffer(k)) {
-                    // The self term has u = 1, so u^4 (5 - 4u) = 1.
-                    let own = marked.as_slice()[c * CHUNK + k][3].widen();
-                    let [weight, sum] = sums[k];
-                    let mean = (sum + own * density_change[k]) / (weight + own);
-                    density_change[k] += blend * (mean - density_change[k]);
-                }
-            });
-        self.next = marked;
     }
 }
 

@@ -83,27 +83,3 @@ fn even_share<L: Lanes>(sharpness: L, own: L, other: L) -> L {
     let is_deep = (own - one) * L::constant(STEEP);
     is_within.max(is_deep.min(one)).max(L::zero())
 }
-
-/// Kernel mean of the first component of the velocity's place over the same part of the support: sums `[0]` of `V W` and `[1]` of
-/// `V W` times it, both without the kernel's constant factor.
-pub struct CapMean {
-    /// Supports over the length within which a neighbour fades out.
-    pub sharpness: f64,
-}
-
-impl<R: Real> PairLaw<R, 2> for CapMean {
-    type Constants<L: Lanes<Elem = R>> = L;
-
-    fn constants<L: Lanes<Elem = R>>(&self) -> L {
-        L::constant(self.sharpness)
-    }
-
-    #[inline(always)]
-    fn pair<L: Lanes<Elem = R>>(sharpness: &L, own: &Own<L>, p: &Pair<L>, sums: &mut [L; 2]) {
-        let u2 = p.u * p.u;
-        let kernel = u2 * u2 * p.u.fnma(L::constant(4.0), L::constant(5.0)) * p.volume;
-        let weight = kernel * even_share(*sharpness, own.scalar, p.scalar);
-        sums[0] = sums[0] + weight;
-        sums[1] = weight.fma(p.velocity[0], sums[1]);
-    }
-}
