@@ -6,24 +6,25 @@ use vaso_tests::{case, flow};
 
 const DIAMETER: f64 = 6.35e-3;
 const LENGTH: f64 = 31.75e-3;
-/// Mean velocity \[m/s\]: slow enough for the viscosity to vary fourfold over the section, and for the flow to
-/// develop within the pipe.
-const MEAN: f64 = 0.02;
+/// Way the blood goes on the mean in a run \[m\]: the flow develops within the pipe.
+const WAY: f64 = 0.024;
 
-/// Root mean square of the velocity less that of the law between three and four diameters from the inlet, of the peak.
-fn error(viscosity: &str, across: f64) -> f64 {
+/// For blood of a mean velocity \[m/s\], slow enough for the law to matter:
+/// root mean square of the velocity less that of the law between three and four diameters from the inlet, of the peak.
+fn error(viscosity: &str, across: f64, mean_velocity: f64) -> f64 {
     let spacing = format!("{} mm", 1e3 * DIAMETER / across);
-    let mean = format!("{MEAN} m/s");
+    let mean = format!("{mean_velocity} m/s");
+    let end = format!("{} s", WAY / mean_velocity);
     let overrides = [
         ("particles.spacing", spacing.as_str()),
         ("blood.viscosity", viscosity),
         ("opening.inlet.value", &mean),
-        ("run.end_time", "1.2 s"),
+        ("run.end_time", &end),
     ];
     let (mut flow, plan) = flow::<f32>(&case("pipe", &overrides));
     let law: Rheology = plan.numbers.rheology.expect("the viscosity is a law");
-    let exact = Developed::new(&law, 0.5 * DIAMETER, MEAN);
-    let newtonian = 2.0 * MEAN;
+    let exact = Developed::new(&law, 0.5 * DIAMETER, mean_velocity);
+    let newtonian = 2.0 * mean_velocity;
     let (mut sum, mut n, mut parabola) = (0.0, 0.0_f64, 0.0);
     while flow.time < plan.end_time {
         flow.step(plan.end_time).unwrap_or_else(|e| panic!("{e}"));
@@ -48,10 +49,10 @@ fn error(viscosity: &str, across: f64) -> f64 {
 
 #[test]
 fn carreau_yasuda_blood_has_its_profile() {
-    assert!(error("{ model = \"carreau-yasuda\" }", 12.0) < 0.02);
+    assert!(error("{ model = \"carreau-yasuda\" }", 12.0, 0.02) < 0.02);
 }
 
 #[test]
 fn casson_blood_has_its_profile() {
-    assert!(error("{ model = \"casson\" }", 12.0) < 0.02);
+    assert!(error("{ model = \"casson\" }", 12.0, 0.01) < 0.02);
 }
