@@ -157,6 +157,25 @@ impl Rows {
             .map(|at| at / FIELDS)
     }
 
+    /// Lets entry `j` of all rows point at `to[j]` instead, out of `n_other` particles.
+    ///
+    /// Rows are found among particles in cell order; this way images of a periodic body can be kept behind the others.
+    ///
+    /// # Panics
+    /// If `to` has another length than the particles searched, or points beyond `n_other`.
+    pub fn redirect(&mut self, to: &[u32], n_other: usize) {
+        assert!(to.len() == self.n_other && n_other < u32::MAX as usize / FIELDS, "an entry a particle");
+        assert!(to.iter().all(|&j| (j as usize) < n_other), "entries beyond the particles");
+        let (old_null, new_null) = (FIELDS * self.n_other, FIELDS * n_other);
+        self.n_other = n_other;
+        self.chunks.par_iter_mut().for_each(|chunk| {
+            for at in &mut chunk.at {
+                let old = *at as usize;
+                *at = if old == old_null { new_null as u32 } else { FIELDS as u32 * to[old / FIELDS] };
+            }
+        });
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.chunks.iter().map(|c| 4 * (c.start.capacity() + c.at.capacity())).sum()

@@ -1,0 +1,25 @@
+#![doc = include_str!("../README.md")]
+
+mod energy;
+pub mod error;
+mod face;
+pub mod law;
+mod load;
+mod mat3;
+pub mod material;
+mod numbers;
+mod output;
+mod reference;
+mod solid;
+mod state;
+mod step;
+mod total;
+
+pub use energy::Energies;
+pub use error::SolidError;
+pub use face::Face;
+pub use material::{HolzapfelGasserOgden, HypoElastic, Material, NeoHookean, SaintVenantKirchhoff};
+pub use numbers::{Hourglass, Numbers};
+pub use solid::{Particles, Solid};
+pub use state::SolidState;
+pub use vaso_kernels::{Isa, Real};
