@@ -10,6 +10,7 @@ pub mod material;
 mod numbers;
 mod output;
 mod reference;
+mod settle;
 mod solid;
 mod state;
 mod step;

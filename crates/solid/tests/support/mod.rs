@@ -52,6 +52,31 @@ pub(crate) fn lattice(low: DVec3, n: [usize; 3], spacing: f64) -> Body {
     body
 }
 
+/// Folder of validation data; says so where there is none.
+pub(crate) fn data() -> Option<std::path::PathBuf> {
+    let folder = std::env::var_os("VASO_DATA").map(Into::into);
+    if folder.is_none() {
+        println!("skipped: VASO_DATA is not set");
+    }
+    folder
+}
+
+/// Numbers of a CSV file below a line of names, row by row.
+pub(crate) fn table(path: &std::path::Path) -> Vec<Vec<f64>> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let row = |line: &str| {
+        line.split(',').map(|cell| cell.trim().parse().expect("tables hold numbers")).collect::<Vec<f64>>()
+    };
+    text.lines().skip(1).filter(|line| !line.trim().is_empty()).map(row).collect()
+}
+
+/// Value of column `k` of a table at `time`, which is its first column.
+pub(crate) fn at_time(table: &[Vec<f64>], k: usize, time: f64) -> f64 {
+    let next = table.iter().position(|row| row[0] > time).unwrap_or(table.len() - 1).max(1);
+    let (a, b) = (&table[next - 1], &table[next]);
+    a[k] + (time - a[0]) / (b[0] - a[0]) * (b[k] - a[k])
+}
+
 /// One layer in z of rings between two radii, `layers` of them, staggered; particles at the middle of their cells.
 pub(crate) fn rings(inner: f64, outer: f64, layers: usize) -> Body {
     let spacing = (outer - inner) / layers as f64;
