@@ -46,7 +46,8 @@ fn a_bending_column_follows_the_published_track() {
         solid.advance(0.03).expect("published to be stable");
         time += 0.03;
         let x = solid.state.position(tip) - solid.state.reference_position[tip] + start;
-        let miss = [x.x, x.y, x.z].iter().enumerate().map(|(k, x)| (x - at_time(&track, k + 1, time)).abs());
+        let miss =
+            x.to_array().into_iter().enumerate().map(|(k, x)| (x - at_time(&track, k + 1, time)).abs());
         let miss = miss.fold(0.0, f64::max) / range(2);
         let energies = solid.energies();
         hourglass = hourglass.max(energies.hourglass / energies.strain);
