@@ -1,9 +1,8 @@
 //! Where the energy of a solid is.
 
-use crate::material::{Elastic, Material, young};
-use crate::solid::{Formulation, Solid};
-use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real};
+use crate::formulation::total;
+use crate::solid::Solid;
+use vaso_kernels::Real;
 
 /// Sums over time.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,39 +38,9 @@ impl<R: Real> Solid<R> {
     /// Energies of the body where it stands.
     pub fn energies(&mut self) -> Energies {
         let state = &self.state;
-        let kinetic = chunked(state.len(), |i| 0.5 * state.mass[i] * state.velocity[i].length_squared());
-        let (strain, hourglass) = match &mut self.formulation {
-            Formulation::Total(body) => {
-                let energy = |i: usize| {
-                    let (f, fibres) = (body.deformation(i), body.fibres(i));
-                    let density = match &self.material {
-                        Material::SaintVenantKirchhoff(m) => m.energy(&f, &fibres),
-                        Material::NeoHookean(m) => m.energy(&f, &fibres),
-                        Material::HolzapfelGasserOgden(m) => m.energy(&f, &fibres),
-                        Material::HypoElastic(_) => {
-                            unreachable!("a hypo-elastic body is not total-Lagrangian")
-                        }
-                    };
-                    state.volume[i] * density
-                };
-                let strain = chunked(state.len(), energy);
-                let (bulk, shear) = self.material.moduli();
-                let modulus = self.numbers.hourglass.stiffness * young(bulk, shear);
-                let hourglass =
-                    if modulus > 0.0 { body.hourglass_energy(&state.volume, modulus) } else { 0.0 };
-                (strain, hourglass)
-            }
-        };
+        let kinetic = total(state.len(), |i| 0.5 * state.mass[i] * state.velocity[i].length_squared());
+        let [strain, hourglass] = self.body.energies(state, &self.numbers);
         let (dissipated, load_work) = (self.ledger.dissipation, self.ledger.load_work);
         Energies { kinetic, strain, hourglass, dissipated, load_work }
     }
-}
-
-/// Sum over particles in an order that does not depend on threads.
-fn chunked(n: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let chunks: Vec<f64> = (0..n.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|c| (c * CHUNK..n.min((c + 1) * CHUNK)).map(&term).sum())
-        .collect();
-    chunks.iter().sum()
 }

@@ -3,6 +3,7 @@
 mod energy;
 pub mod error;
 mod face;
+mod formulation;
 pub mod law;
 mod load;
 mod mat3;
@@ -15,6 +16,7 @@ mod solid;
 mod state;
 mod step;
 mod total;
+mod updated;
 
 pub use energy::Energies;
 pub use error::SolidError;

@@ -1,10 +1,9 @@
 //! Loads and springs: what acts on a solid from outside.
 
-use crate::solid::Formulation;
+use crate::formulation::Formulation;
 use crate::state::SolidState;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::Real;
 
 /// Pressure on a face, which follows it.
 pub(crate) struct Pressure {
@@ -51,7 +50,7 @@ impl Loads {
     }
 
     /// Computes the accelerations where the body is now.
-    pub(crate) fn update<R: Real>(&mut self, state: &SolidState, formulation: &Formulation<R>) {
+    pub(crate) fn update(&mut self, state: &SolidState, body: &dyn Formulation) {
         if !self.act() {
             self.acceleration.clear();
             return;
@@ -65,7 +64,7 @@ impl Loads {
             for (&i, &area) in pressure.at.iter().zip(&pressure.area) {
                 let i = i as usize;
                 // Nanson: n da = J F^-T N dA.
-                let present = crate::material::cofactor(&formulation.deformation(i)) * area;
+                let present = crate::material::cofactor(&body.deformation(i)) * area;
                 self.acceleration[i] -= (pressure.value / mass[i]) * present;
             }
         }

@@ -1,7 +1,7 @@
 //! Quantities of one particle, for files and pictures.
 
-use crate::material::{Elastic, Material, norm_squared};
-use crate::solid::{Formulation, Solid};
+use crate::material::norm_squared;
+use crate::solid::Solid;
 use glam::{DMat3, DVec3};
 use nalgebra::{Matrix3, SymmetricEigen};
 use vaso_kernels::Real;
@@ -9,23 +9,12 @@ use vaso_kernels::Real;
 impl<R: Real> Solid<R> {
     /// Deformation gradient of particle `i` of the columns.
     pub fn deformation_gradient(&self, i: usize) -> DMat3 {
-        self.formulation.deformation(i)
+        self.body.deformation(i)
     }
 
     /// Cauchy stress of the material \[Pa\] at particle `i`, without damping and hourglass control.
     pub fn cauchy_stress(&self, i: usize) -> DMat3 {
-        match &self.formulation {
-            Formulation::Total(body) => {
-                let (f, fibres) = (body.deformation(i), body.fibres(i));
-                let stress = match &self.material {
-                    Material::SaintVenantKirchhoff(m) => m.stress(&f, &fibres),
-                    Material::NeoHookean(m) => m.stress(&f, &fibres),
-                    Material::HolzapfelGasserOgden(m) => m.stress(&f, &fibres),
-                    Material::HypoElastic(_) => unreachable!("a hypo-elastic body is not total-Lagrangian"),
-                };
-                (1.0 / f.determinant()) * (stress.first_piola * f.transpose())
-            }
-        }
+        self.body.cauchy_stress(i)
     }
 
     /// Von Mises stress \[Pa\] at particle `i`: what shears the material, as the tension of a pulled bar that shears as much.
@@ -38,7 +27,7 @@ impl<R: Real> Solid<R> {
 
     /// Principal stretches of particle `i`, largest first.
     pub fn principal_stretches(&self, i: usize) -> [f64; 3] {
-        let f = self.formulation.deformation(i);
+        let f = self.body.deformation(i);
         let c = f.transpose() * f;
         let [x, y, z] = [c.x_axis, c.y_axis, c.z_axis];
         let matrix = Matrix3::new(x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z);

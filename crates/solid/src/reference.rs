@@ -15,13 +15,15 @@ const FLATTEST: f64 = 0.05;
 /// Cell order of a body, with images where it repeats.
 pub(crate) struct Arrangement {
     /// `order[new] = old` among the particles given.
-    pub order: Vec<u32>,
+    pub(crate) order: Vec<u32>,
     /// Positions in that order \[m\].
-    pub position: Vec<DVec3>,
+    pub(crate) position: Vec<DVec3>,
     /// Particle (in the new order) and shift \[m\] of each image.
-    pub images: Vec<(u32, DVec3)>,
-    frame: Frame,
-    rows: Rows,
+    pub(crate) images: Vec<(u32, DVec3)>,
+    /// Frame of the coordinates.
+    pub(crate) frame: Frame,
+    /// Neighbours; images stand behind the particles.
+    pub(crate) rows: Rows,
 }
 
 impl Arrangement {
@@ -93,17 +95,17 @@ impl Arrangement {
 
 /// Frozen neighbours of a body and their correction matrices.
 pub(crate) struct Reference<R> {
-    pub kernel: Wendland,
-    pub frame: Frame,
-    pub rows: Rows,
+    pub(crate) kernel: Wendland,
+    pub(crate) frame: Frame,
+    pub(crate) rows: Rows,
     /// Inverse moment matrices: gradients of linear fields are exact (Bonet and Lok 1999).
-    pub correction: Vec<Sym3>,
+    pub(crate) correction: Vec<Sym3>,
     /// Moment matrices.
-    pub moment: Vec<Sym3>,
+    pub(crate) moment: Vec<Sym3>,
     /// Particle behind each image.
-    pub images: Vec<u32>,
+    pub(crate) images: Vec<u32>,
     /// Records with position and volume, images behind the particles; the rest is zero.
-    pub blank: Records<R>,
+    pub(crate) blank: Records<R>,
 }
 
 impl<R: Real> Reference<R> {

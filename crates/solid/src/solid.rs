@@ -3,15 +3,18 @@
 use crate::energy::Ledger;
 use crate::error::{SolidError, within};
 use crate::face::Face;
+use crate::formulation::{Formulation, Report};
 use crate::load::{Loads, Pressure, Tissue};
-use crate::material::Material;
+use crate::material::{Elastic, Fibres, Material};
 use crate::numbers::Numbers;
 use crate::reference::{Arrangement, Reference};
 use crate::state::SolidState;
-use crate::total::{Report, TotalLagrangian};
-use glam::{DMat3, DVec3};
+use crate::total::TotalLagrangian;
+use crate::updated::UpdatedLagrangian;
+use glam::DVec3;
+use std::marker::PhantomData;
 use vaso_kernels::{Isa, Real, Wendland};
-use vaso_particles::{WallLoad, visit};
+use vaso_particles::{Columns, Visitor, WallLoad, visit};
 
 /// Particles of a solid, in any order; all lists in the same.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,19 +39,6 @@ pub(crate) struct Shown {
     pub depth: Vec<f64>,
 }
 
-/// How the stress of a body comes about.
-pub(crate) enum Formulation<R> {
-    Total(TotalLagrangian<R>),
-}
-
-impl<R: Real> Formulation<R> {
-    pub(crate) fn deformation(&self, i: usize) -> DMat3 {
-        match self {
-            Self::Total(body) => body.deformation(i),
-        }
-    }
-}
-
 /// Elastic body of particles.
 ///
 /// Its particles lie in cell order; [`SolidState::id`] and [`Solid::place`] lead from one order to the other. One step of the
@@ -58,7 +48,7 @@ pub struct Solid<R> {
     pub state: SolidState,
     pub(crate) material: Material,
     pub(crate) numbers: Numbers,
-    pub(crate) formulation: Formulation<R>,
+    pub(crate) body: Box<dyn Formulation>,
     pub(crate) loads: Loads,
     /// Normals of the planes that particles slide on.
     pub(crate) planes: Vec<DVec3>,
@@ -69,6 +59,7 @@ pub struct Solid<R> {
     pub(crate) ready: bool,
     /// `place[given] = sorted`.
     place: Vec<u32>,
+    precision: PhantomData<R>,
 }
 
 impl<R: Real> Solid<R> {
@@ -106,22 +97,27 @@ impl<R: Real> Solid<R> {
         for (new, &old) in arrangement.order.iter().enumerate() {
             place[old as usize] = new as u32;
         }
-        let fibres = match &material {
-            Material::HolzapfelGasserOgden(m) => {
-                let directions = state.id.iter().map(|&id| particles.directions[id as usize]);
-                directions.map(|[circumferential, axial]| m.fibres(circumferential, axial)).collect()
-            }
-            _ => Vec::new(),
-        };
         let shown = (particles.depth.len() == n && n > 0).then(|| Shown {
             position: state.reference_position.to_vec(),
             mean_velocity: vec![DVec3::ZERO; n],
             acceleration: vec![DVec3::ZERO; n],
             depth: state.id.iter().map(|&id| particles.depth[id as usize]).collect(),
         });
-        let reference = Reference::new(arrangement, kernel, &state.volume, &state.id, isa)?;
+        let make = Make { arrangement, kernel, state: &state, numbers: &numbers, isa };
+        let body: Box<dyn Formulation> = match material {
+            Material::SaintVenantKirchhoff(m) => make.elastic::<R, _>(m, Vec::new())?,
+            Material::NeoHookean(m) => make.elastic::<R, _>(m, Vec::new())?,
+            Material::HolzapfelGasserOgden(m) => {
+                let directions = state.id.iter().map(|&id| particles.directions[id as usize]);
+                let fibres = directions.map(|[circumferential, axial]| m.fibres(circumferential, axial));
+                make.elastic::<R, _>(m, fibres.collect())?
+            }
+            Material::HypoElastic(m) => {
+                Box::new(UpdatedLagrangian::<R>::new(m, n, kernel, particles.period, isa))
+            }
+        };
         Ok(Self {
-            formulation: Formulation::Total(TotalLagrangian::new(reference, fibres, &numbers, isa)),
+            body,
             state,
             material,
             numbers,
@@ -132,6 +128,7 @@ impl<R: Real> Solid<R> {
             report: Report::default(),
             ready: false,
             place,
+            precision: PhantomData,
         })
     }
 
@@ -260,15 +257,13 @@ impl<R: Real> Solid<R> {
         let both = load.pressure_force.iter().zip(load.viscous_force);
         self.loads.fluid.clear();
         self.loads.fluid.extend(both.map(|(p, v)| *p + *v));
-        self.loads.update(&self.state, &self.formulation);
+        self.loads.update(&self.state, &*self.body);
         Ok(())
     }
 
     /// Neighbour pairs, each direction counted.
     pub fn n_pairs(&self) -> usize {
-        match &self.formulation {
-            Formulation::Total(body) => body.n_pairs(),
-        }
+        self.body.n_pairs()
     }
 
     /// Bytes held.
@@ -276,10 +271,37 @@ impl<R: Real> Solid<R> {
         let vectors = self.shown.as_ref().map_or(0, |s| 3 * s.position.capacity())
             + self.loads.fluid.capacity()
             + self.loads.acceleration.capacity();
-        let body = match &self.formulation {
-            Formulation::Total(body) => body.bytes(),
-        };
-        visit::bytes(&mut self.state) + body + vectors * size_of::<DVec3>() + 4 * self.place.capacity()
+        let working = self.body.bytes() + vectors * size_of::<DVec3>() + 4 * self.place.capacity();
+        visit::bytes(self) + working
+    }
+}
+
+/// All that a body has to remember; accelerations and strains follow from it by [`Solid::refresh`].
+impl<R: Real> Columns for Solid<R> {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        self.state.visit(visitor);
+        self.body.visit(visitor);
+    }
+}
+
+/// What a formulation is made from.
+struct Make<'a> {
+    arrangement: Arrangement,
+    kernel: Wendland,
+    state: &'a SolidState,
+    numbers: &'a Numbers,
+    isa: Isa,
+}
+
+impl Make<'_> {
+    fn elastic<R: Real, E: Elastic>(
+        self,
+        material: E,
+        fibres: Vec<Fibres>,
+    ) -> Result<Box<dyn Formulation>, SolidError> {
+        let Self { arrangement, kernel, state, numbers, isa } = self;
+        let reference = Reference::<R>::new(arrangement, kernel, &state.volume, &state.id, isa)?;
+        Ok(Box::new(TotalLagrangian::new(material, reference, fibres, numbers, isa)))
     }
 }
 

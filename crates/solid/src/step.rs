@@ -1,7 +1,7 @@
 //! Time: kick, drift, kick, in as many sub-steps as the waves in the solid call for.
 
 use crate::error::SolidError;
-use crate::solid::{Formulation, Solid, held};
+use crate::solid::{Solid, held};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Real};
@@ -83,20 +83,14 @@ impl<R: Real> Solid<R> {
     }
 
     fn drift(&mut self, dt: f64) {
-        match &mut self.formulation {
-            Formulation::Total(body) => body.drift(&mut self.state, dt),
-        }
+        self.body.drift(&mut self.state, dt);
     }
 
     fn accelerate(&mut self, dt: f64) -> Result<(), SolidError> {
-        self.report = match &mut self.formulation {
-            Formulation::Total(body) => {
-                body.accelerate(&mut self.state, &self.material, &self.numbers, dt)?
-            }
-        };
+        self.report = self.body.accelerate(&mut self.state, &self.numbers, dt)?;
         self.ledger.dissipation += dt * self.report.dissipation;
         if self.loads.follow() || !self.ready {
-            self.loads.update(&self.state, &self.formulation);
+            self.loads.update(&self.state, &*self.body);
         }
         Ok(())
     }

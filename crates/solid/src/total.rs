@@ -1,30 +1,24 @@
 //! Total-Lagrangian body: strain, stress and force by the frozen neighbours of the reference configuration.
 
 use crate::error::SolidError;
+use crate::formulation::{Formulation, Report, total};
 use crate::law::DISPLACEMENT_UNIT;
 use crate::law::force::Force;
 use crate::law::hourglass::{HourglassEnergy, NeighbourGradient};
 use crate::law::strain::{DAMPED_SUMS, DampedGradient, DisplacementGradient, SUMS};
 use crate::mat3::{from_rows, full, pack};
-use crate::material::{Elastic, Fibres, Material, young};
+use crate::material::{Elastic, Fibres, young};
 use crate::numbers::Numbers;
 use crate::reference::Reference;
 use crate::state::SolidState;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, FIELDS, Gather, Isa, Real, Records, Store, sweep};
-
-/// What is known of the forces of a step beside themselves.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Report {
-    /// Largest P-wave modulus \[Pa\].
-    pub modulus: f64,
-    /// Power taken by damping and viscosity \[W\].
-    pub dissipation: f64,
-}
+use vaso_particles::Visitor;
 
 /// Working memory of a total-Lagrangian body.
-pub(crate) struct TotalLagrangian<R> {
+pub(crate) struct TotalLagrangian<R, E> {
+    material: E,
     reference: Reference<R>,
     /// Directions of the fibres, empty where the material has none.
     fibres: Vec<Fibres>,
@@ -46,8 +40,14 @@ pub(crate) struct TotalLagrangian<R> {
     isa: Isa,
 }
 
-impl<R: Real> TotalLagrangian<R> {
-    pub(crate) fn new(reference: Reference<R>, fibres: Vec<Fibres>, numbers: &Numbers, isa: Isa) -> Self {
+impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
+    pub(crate) fn new(
+        material: E,
+        reference: Reference<R>,
+        fibres: Vec<Fibres>,
+        numbers: &Numbers,
+        isa: Isa,
+    ) -> Self {
         let n = reference.correction.len();
         let all = reference.blank.len();
         let zeros = |on: bool| vec![DMat3::ZERO; if on { n } else { 0 }];
@@ -58,6 +58,7 @@ impl<R: Real> TotalLagrangian<R> {
         };
         let damped = numbers.damping > 0.0;
         Self {
+            material,
             fibres,
             gradient: zeros(true),
             rate: zeros(numbers.viscosity > 0.0),
@@ -72,61 +73,14 @@ impl<R: Real> TotalLagrangian<R> {
         }
     }
 
-    /// Deformation gradient of particle `i`.
-    pub(crate) fn deformation(&self, i: usize) -> DMat3 {
-        DMat3::IDENTITY + self.gradient[i]
+    /// Hourglass modulus `k E` \[Pa\].
+    fn hourglass_modulus(&self, numbers: &Numbers) -> f64 {
+        let (bulk, shear) = (self.material.bulk_modulus(), self.material.shear_modulus());
+        numbers.hourglass.stiffness * young(bulk, shear)
     }
 
-    /// Fibres of particle `i`.
-    pub(crate) fn fibres(&self, i: usize) -> Fibres {
+    fn fibres(&self, i: usize) -> Fibres {
         self.fibres.get(i).copied().unwrap_or_default()
-    }
-
-    /// Moves the body by its velocity over `dt` \[s\], and packs what the pair loops read.
-    pub(crate) fn drift(&mut self, state: &mut SolidState, dt: f64) {
-        let n = state.len();
-        let in_supports = 1.0 / self.reference.kernel.support();
-        let moved = |record: &mut [R; FIELDS], u: &mut DVec3, v: &DVec3| {
-            *u += dt * *v;
-            for (field, u) in record[4..7].iter_mut().zip((*u * in_supports).to_array()) {
-                // Wraps around far from the reference position: only differences are read.
-                *field = R::coordinate((u * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u);
-            }
-        };
-        let columns =
-            (&mut self.kinematic.as_mut_slice()[..n], &mut state.displacement[..], &state.velocity[..]);
-        columns.into_par_iter().with_min_len(1024).for_each(|(record, u, v)| moved(record, u, v));
-        self.reference.copy_to_images(&mut self.kinematic, 4);
-        if !self.damping.is_empty() {
-            let records = &mut self.velocity.as_mut_slice()[..n];
-            (records, &state.velocity[..]).into_par_iter().with_min_len(1024).for_each(|(record, v)| {
-                record[..3].copy_from_slice(&v.to_array().map(R::pack));
-            });
-            self.reference.copy_to_images(&mut self.velocity, 0);
-        }
-    }
-
-    /// Writes the acceleration of all particles. `dt` \[s\] is the step that led here, for viscosity; 0 for none.
-    pub(crate) fn accelerate(
-        &mut self,
-        state: &mut SolidState,
-        material: &Material,
-        numbers: &Numbers,
-        dt: f64,
-    ) -> Result<Report, SolidError> {
-        let (bulk, shear) = material.moduli();
-        let hourglass = numbers.hourglass.stiffness * young(bulk, shear);
-        let wave_speed = ((bulk + 4.0 / 3.0 * shear) / numbers.density).sqrt();
-        self.strain(dt, numbers.damping * wave_speed);
-        self.hourglass(hourglass);
-        let report = match material {
-            Material::SaintVenantKirchhoff(m) => self.stress(state, m, numbers.viscosity, hourglass),
-            Material::NeoHookean(m) => self.stress(state, m, numbers.viscosity, hourglass),
-            Material::HolzapfelGasserOgden(m) => self.stress(state, m, numbers.viscosity, hourglass),
-            Material::HypoElastic(_) => unreachable!("a hypo-elastic body is not total-Lagrangian"),
-        }?;
-        self.divergence(state, numbers.density, hourglass);
-        Ok(report)
     }
 
     /// Displacement gradients, and damping of the speed `damping` \[m/s\] times that of the pairs.
@@ -216,14 +170,9 @@ impl<R: Real> TotalLagrangian<R> {
     }
 
     /// Stress of all particles, packed with the hourglass control as `Q = P B - k G / 2`.
-    fn stress<E: Elastic>(
-        &mut self,
-        state: &SolidState,
-        material: &E,
-        viscosity: f64,
-        hourglass: f64,
-    ) -> Result<Report, SolidError> {
+    fn stress(&mut self, state: &SolidState, viscosity: f64, hourglass: f64) -> Result<Report, SolidError> {
         let n = state.len();
+        let material = self.material;
         let (gradient, rate, damping) = (&self.gradient, &self.rate, &self.damping);
         let (correction, kinematic) = (&self.reference.correction, &self.kinematic);
         let (fibres, hourglass_stress) = (&self.fibres, &self.hourglass);
@@ -269,7 +218,7 @@ impl<R: Real> TotalLagrangian<R> {
             let chunk = chunk.map_err(|i| SolidError::Inverted {
                 particle: state.id[i],
                 position: state.position(i),
-                determinant: self.deformation(i).determinant(),
+                determinant: (DMat3::IDENTITY + self.gradient[i]).determinant(),
             })?;
             report.modulus = report.modulus.max(chunk.modulus);
             report.dissipation += chunk.dissipation;
@@ -295,8 +244,8 @@ impl<R: Real> TotalLagrangian<R> {
         );
     }
 
-    /// Energy of the hourglass control \[J\], of the modulus `k E` \[Pa\]. Uses the records of the force.
-    pub(crate) fn hourglass_energy(&mut self, volume: &[f64], modulus: f64) -> f64 {
+    /// Energy of the hourglass control \[J\]. Uses the records of the force.
+    fn hourglass_energy(&mut self, volume: &[f64], modulus: f64) -> f64 {
         self.pack_gradient();
         let (isa, reference) = (self.isa, &self.reference);
         // 1/4 sum V_a V_b k E (s u^3 / H) H^2 |...|^2.
@@ -316,14 +265,70 @@ impl<R: Real> TotalLagrangian<R> {
             .collect();
         chunks.iter().sum()
     }
+}
 
-    /// Neighbour pairs, each direction counted.
-    pub(crate) fn n_pairs(&self) -> usize {
+impl<R: Real, E: Elastic> Formulation for TotalLagrangian<R, E> {
+    fn drift(&mut self, state: &mut SolidState, dt: f64) {
+        let n = state.len();
+        let in_supports = 1.0 / self.reference.kernel.support();
+        let moved = |record: &mut [R; FIELDS], u: &mut DVec3, v: &DVec3| {
+            *u += dt * *v;
+            for (field, u) in record[4..7].iter_mut().zip((*u * in_supports).to_array()) {
+                // Wraps around far from the reference position: only differences are read.
+                *field = R::coordinate((u * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u);
+            }
+        };
+        let columns =
+            (&mut self.kinematic.as_mut_slice()[..n], &mut state.displacement[..], &state.velocity[..]);
+        columns.into_par_iter().with_min_len(1024).for_each(|(record, u, v)| moved(record, u, v));
+        self.reference.copy_to_images(&mut self.kinematic, 4);
+        if !self.damping.is_empty() {
+            let records = &mut self.velocity.as_mut_slice()[..n];
+            (records, &state.velocity[..]).into_par_iter().with_min_len(1024).for_each(|(record, v)| {
+                record[..3].copy_from_slice(&v.to_array().map(R::pack));
+            });
+            self.reference.copy_to_images(&mut self.velocity, 0);
+        }
+    }
+
+    fn accelerate(
+        &mut self,
+        state: &mut SolidState,
+        numbers: &Numbers,
+        dt: f64,
+    ) -> Result<Report, SolidError> {
+        let modulus = self.material.bulk_modulus() + 4.0 / 3.0 * self.material.shear_modulus();
+        let hourglass = self.hourglass_modulus(numbers);
+        self.strain(dt, numbers.damping * (modulus / numbers.density).sqrt());
+        self.hourglass(hourglass);
+        let report = self.stress(state, numbers.viscosity, hourglass)?;
+        self.divergence(state, numbers.density, hourglass);
+        Ok(report)
+    }
+
+    fn deformation(&self, i: usize) -> DMat3 {
+        DMat3::IDENTITY + self.gradient[i]
+    }
+
+    fn cauchy_stress(&self, i: usize) -> DMat3 {
+        let f = self.deformation(i);
+        let stress = self.material.stress(&f, &self.fibres(i));
+        (1.0 / f.determinant()) * (stress.first_piola * f.transpose())
+    }
+
+    fn energies(&mut self, state: &SolidState, numbers: &Numbers) -> [f64; 2] {
+        let strain = total(state.len(), |i| {
+            state.volume[i] * self.material.energy(&self.deformation(i), &self.fibres(i))
+        });
+        let modulus = self.hourglass_modulus(numbers);
+        [strain, if modulus > 0.0 { self.hourglass_energy(&state.volume, modulus) } else { 0.0 }]
+    }
+
+    fn n_pairs(&self) -> usize {
         self.reference.rows.n_pairs()
     }
 
-    /// Bytes held.
-    pub(crate) fn bytes(&self) -> usize {
+    fn bytes(&self) -> usize {
         let matrices = self.gradient.capacity() + self.rate.capacity() + self.hourglass.capacity();
         self.reference.bytes()
             + size_of::<Fibres>() * self.fibres.capacity()
@@ -333,6 +338,10 @@ impl<R: Real> TotalLagrangian<R> {
             + self.velocity.bytes()
             + self.dynamic.bytes()
             + self.matrix.bytes()
+    }
+
+    fn visit(&mut self, _: &mut dyn Visitor) {
+        // All of it follows from the displacements.
     }
 }
 

@@ -10,10 +10,11 @@ const SPACING: f64 = 1e-3;
 const LENGTH: usize = 12;
 const THICKNESS: usize = 4;
 
-/// A clamped bar, disordered, with the velocity of a swing; in double or mixed precision.
-fn bar<R: Real>(numbers: Numbers) -> Solid<R> {
+/// A clamped bar with the velocity of a swing; `jitter` disorders its lattice.
+fn bar<R: Real>(numbers: Numbers, jitter: f64) -> Solid<R> {
     let body: Body =
-        lattice(DVec3::new(-2.0 * SPACING, 0.0, 0.0), [LENGTH + 2, 3, 3], SPACING).jittered(0.1, SPACING);
+        lattice(DVec3::new(-2.0 * SPACING, 0.0, 0.0), [LENGTH + 2, THICKNESS, THICKNESS], SPACING)
+            .jittered(jitter, SPACING);
     let clamped = body.select(|x| x.x < 0.2 * SPACING);
     let material = Material::NeoHookean(NeoHookean::new(4e5, 0.45).expect("in range"));
     let mut solid = Solid::new(&body.particles(), material, numbers, Isa::detect()).expect("a sound body");
@@ -61,24 +62,26 @@ fn swing<R: Real>(mut solid: Solid<R>, periods: usize) -> (f64, f64) {
 
 #[test]
 fn a_hundred_undamped_periods_keep_the_energy() {
-    let (drift, share) = swing(bar::<f64>(numbers(true)), 100);
+    let (drift, share) = swing(bar::<f64>(numbers(true), 0.0), 100);
     assert!(drift < 0.01, "{drift}");
     assert!(share < 0.02, "{share}");
 }
 
+/// A disordered set keeps the energy as well, in single precision too. In its four layers the hourglass control takes up to 2.5 %
+/// of the strain energy, as it answers to the error of the gradients at the surface.
 #[test]
-fn mixed_precision_keeps_the_energy_as_well() {
-    let (drift, share) = swing(bar::<f32>(numbers(true)), 10);
+fn disorder_and_mixed_precision_keep_the_energy() {
+    let (drift, share) = swing(bar::<f32>(numbers(true), 0.1), 10);
     assert!(drift < 0.01, "{drift}");
-    assert!(share < 0.02, "{share}");
+    assert!(share < 0.03, "{share}");
 }
 
 /// Without its variational part the hourglass control is no derivative of an energy; how far that goes.
 #[test]
 fn the_cheap_hourglass_control_drifts_slowly() {
-    let (drift, share) = swing(bar::<f64>(numbers(false)), 10);
-    assert!(drift < 0.05, "{drift}");
-    assert!(share < 0.02, "{share}");
+    let (drift, share) = swing(bar::<f64>(numbers(false), 0.1), 10);
+    assert!(drift < 0.02, "{drift}");
+    assert!(share < 0.03, "{share}");
 }
 
 /// What pair damping and viscosity take is what is missing.
@@ -86,7 +89,7 @@ fn the_cheap_hourglass_control_drifts_slowly() {
 fn damping_is_counted() {
     for (damping, viscosity) in [(0.25, 0.0), (0.0, 1.0)] {
         let numbers = Numbers { damping, viscosity, ..numbers(true) };
-        let mut solid = bar::<f64>(numbers);
+        let mut solid = bar::<f64>(numbers, 0.1);
         solid.refresh().expect("at rest");
         let start = solid.energies().kinetic;
         for _ in 0..200 {

@@ -1,6 +1,6 @@
 //! Formulas of one pair: branch-free functions over lanes for [`vaso_kernels::sweep`].
 //!
-//! All use the separation `d` in the reference configuration, in supports H = 2h, so that `grad W = -s u^3 d` with
+//! All but those of `updated` use the separation `d` in the reference configuration, in supports H = 2h, so that `grad W = -s u^3 d` with
 //! `s` = [`vaso_kernels::Wendland::gradient_scale`]; constant factors are applied once a particle, after the sums. The
 //! record holds the displacement in its fields u v w, coded like a coordinate: differences are exact wherever the body went.
 
@@ -8,6 +8,7 @@ pub mod force;
 pub mod hourglass;
 pub mod moment;
 pub mod strain;
+pub mod updated;
 
 use vaso_kernels::{Lanes, Own, Pair};
 

@@ -1,6 +1,6 @@
 //! Hypo-elasticity: the stress follows the rate of deformation.
 
-use super::{moduli, young};
+use super::moduli;
 use crate::error::SolidError;
 use glam::DMat3;
 
@@ -45,15 +45,10 @@ impl HypoElastic {
         turn * *stress * turn.transpose() + (2.0 * self.shear * dt) * deviatoric
     }
 
-    /// Elastic energy by present volume \[J/m^3\] of a deviatoric stress \[Pa\] and a relative density change.
+    /// Elastic energy by reference volume \[J/m^3\] of a deviatoric stress \[Pa\] and a relative density change.
     pub fn energy(&self, stress: &DMat3, density_change: f64) -> f64 {
-        super::norm_squared(stress) / (4.0 * self.shear)
-            + 0.5 * self.bulk * density_change * density_change / (1.0 + density_change)
-    }
-
-    /// Young's modulus \[Pa\].
-    pub fn young(&self) -> f64 {
-        young(self.bulk, self.shear)
+        let eta = 1.0 + density_change;
+        super::norm_squared(stress) / (4.0 * self.shear * eta) + self.bulk * (eta.ln() + 1.0 / eta - 1.0)
     }
 }
 

@@ -26,7 +26,7 @@ pub struct Stress {
 }
 
 /// A material whose stress is the derivative of an energy.
-pub trait Elastic: Copy + Send + Sync {
+pub trait Elastic: Copy + Send + Sync + 'static {
     /// Energy by reference volume \[J/m^3\] at the deformation gradient `f`, whose determinant is positive.
     fn energy(&self, f: &DMat3, fibres: &Fibres) -> f64;
     /// Stress at the deformation gradient `f`, whose determinant is positive.
@@ -65,16 +65,6 @@ pub enum Material {
 }
 
 impl Material {
-    /// Bulk and shear modulus at rest \[Pa\].
-    pub fn moduli(&self) -> (f64, f64) {
-        match self {
-            Self::SaintVenantKirchhoff(m) => (m.bulk_modulus(), m.shear_modulus()),
-            Self::NeoHookean(m) => (m.bulk_modulus(), m.shear_modulus()),
-            Self::HolzapfelGasserOgden(m) => (m.bulk_modulus(), m.shear_modulus()),
-            Self::HypoElastic(m) => (m.bulk, m.shear),
-        }
-    }
-
     /// Speed of P-waves at rest \[m/s\], fibres included, for a density \[kg/m^3\].
     pub fn wave_speed(&self, density: f64) -> f64 {
         let fibres = [DVec3::X; 2];
