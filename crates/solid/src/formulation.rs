@@ -8,27 +8,17 @@ use rayon::prelude::*;
 use vaso_kernels::CHUNK;
 use vaso_particles::Visitor;
 
-/// What is known of the forces of a step beside themselves.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Report {
-    /// Largest P-wave modulus \[Pa\].
-    pub(crate) modulus: f64,
-    /// Power taken by damping and viscosity \[W\].
-    pub(crate) dissipation: f64,
-}
-
 /// Strain, stress and forces of a body. Each call covers all particles; what runs per pair is known to the compiler.
 pub(crate) trait Formulation: Send + Sync {
     /// Moves the body by its velocity over `dt` \[s\].
     fn drift(&mut self, state: &mut SolidState, dt: f64);
 
-    /// Writes the acceleration of all particles. `dt` \[s\] is the step that led here, 0 for none.
-    fn accelerate(
-        &mut self,
-        state: &mut SolidState,
-        numbers: &Numbers,
-        dt: f64,
-    ) -> Result<Report, SolidError>;
+    /// Writes the acceleration of all particles, and returns the energy \[J\] that damping and viscosity took over the step
+    /// `dt` \[s\] that led here, 0 for none.
+    fn accelerate(&mut self, state: &mut SolidState, numbers: &Numbers, dt: f64) -> Result<f64, SolidError>;
+
+    /// Largest P-wave modulus in reference lengths \[Pa\].
+    fn modulus(&self) -> f64;
 
     /// Deformation gradient of particle `i`.
     fn deformation(&self, i: usize) -> DMat3;

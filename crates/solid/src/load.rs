@@ -8,34 +8,47 @@ use rayon::prelude::*;
 /// Pressure on a face, which follows it.
 pub(crate) struct Pressure {
     /// Places of the particles in the state.
-    pub at: Vec<u32>,
+    pub(crate) at: Vec<u32>,
     /// Areas in the reference configuration \[m^2\].
-    pub area: Vec<DVec3>,
+    pub(crate) area: Vec<DVec3>,
     /// Pressure \[Pa\].
-    pub value: f64,
+    pub(crate) value: f64,
 }
 
 /// Spring and dashpot between one particle and what surrounds the vessel.
 pub(crate) struct Tissue {
     /// Place in the state.
-    pub at: u32,
+    pub(crate) at: u32,
     /// Stiffness \[N/m\].
-    pub stiffness: f64,
+    pub(crate) stiffness: f64,
     /// Damping \[N s/m\].
-    pub damping: f64,
+    pub(crate) damping: f64,
+}
+
+/// Part of a face that answers the fluid implicitly.
+pub(crate) struct Impedance {
+    /// Place in the state.
+    pub(crate) at: u32,
+    /// Unit normal in the reference configuration.
+    pub(crate) normal: DVec3,
+    /// Share of the impedance times area that is taken implicitly \[N s/m\].
+    pub(crate) coefficient: f64,
+    /// Velocity at the start of the step of the fluid \[m/s\].
+    pub(crate) start: DVec3,
 }
 
 /// All loads of a solid.
 #[derive(Default)]
 pub(crate) struct Loads {
     /// Acceleration of all particles \[m/s^2\].
-    pub gravity: DVec3,
+    pub(crate) gravity: DVec3,
     /// Force of the fluid \[N\], empty before there is one.
-    pub fluid: Vec<DVec3>,
-    pub pressures: Vec<Pressure>,
-    pub tissue: Vec<Tissue>,
+    pub(crate) fluid: Vec<DVec3>,
+    pub(crate) pressures: Vec<Pressure>,
+    pub(crate) tissue: Vec<Tissue>,
+    pub(crate) impedance: Vec<Impedance>,
     /// Acceleration by all of them \[m/s^2\], empty where there are none.
-    pub acceleration: Vec<DVec3>,
+    pub(crate) acceleration: Vec<DVec3>,
 }
 
 impl Loads {
@@ -86,6 +99,24 @@ impl Loads {
             state.velocity[i] = after;
         }
         taken
+    }
+
+    /// Notes the velocities that the fluid has answered with its force.
+    pub(crate) fn note_start(&mut self, state: &SolidState) {
+        for part in &mut self.impedance {
+            part.start = state.velocity[part.at as usize];
+        }
+    }
+
+    /// Draws velocities along the normal of the face to those the fluid has answered, at the end of a sub-step `dt` \[s\].
+    pub(crate) fn resist(&self, state: &mut SolidState, body: &dyn Formulation, dt: f64) {
+        for part in &self.impedance {
+            let i = part.at as usize;
+            let normal = (crate::material::cofactor(&body.deformation(i)) * part.normal).normalize_or_zero();
+            let weight = dt * part.coefficient / state.mass[i];
+            let lag = normal.dot(part.start - state.velocity[i]);
+            state.velocity[i] += weight / (1.0 + weight) * lag * normal;
+        }
     }
 
     /// Largest stiffness over mass of a spring \[1/s^2\].

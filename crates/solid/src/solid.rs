@@ -3,8 +3,8 @@
 use crate::energy::Ledger;
 use crate::error::{SolidError, within};
 use crate::face::Face;
-use crate::formulation::{Formulation, Report};
-use crate::load::{Loads, Pressure, Tissue};
+use crate::formulation::Formulation;
+use crate::load::{Impedance, Loads, Pressure, Tissue};
 use crate::material::{Elastic, Fibres, Material};
 use crate::numbers::Numbers;
 use crate::reference::{Arrangement, Reference};
@@ -54,7 +54,6 @@ pub struct Solid<R> {
     pub(crate) planes: Vec<DVec3>,
     pub(crate) shown: Option<Shown>,
     pub(crate) ledger: Ledger,
-    pub(crate) report: Report,
     /// Whether accelerations belong to the state.
     pub(crate) ready: bool,
     /// `place[given] = sorted`.
@@ -125,7 +124,6 @@ impl<R: Real> Solid<R> {
             planes: Vec::new(),
             shown,
             ledger: Ledger::default(),
-            report: Report::default(),
             ready: false,
             place,
             precision: PhantomData,
@@ -233,6 +231,27 @@ impl<R: Real> Solid<R> {
     pub fn set_pressure(&mut self, number: usize, pressure: f64) {
         self.loads.pressures[number].value = pressure;
         self.ready = false;
+    }
+
+    /// Lets a face answer the fluid before it implicitly: for walls so thin that the force of a step of the fluid would turn
+    /// their velocity around, `thickness < 0.4 rho_0 / rho_s` spacings of the fluid.
+    ///
+    /// `impedance` \[Pa s/m\] is density times sound speed of the fluid, `share` (0.5 to 1) how much of it is taken implicitly. It
+    /// acts like a mass `share * impedance * dt` by area in one step, and dissipates nothing.
+    ///
+    /// # Errors
+    /// [`SolidError::NoSuchParticle`]; [`SolidError::OutOfRange`] for numbers without a meaning.
+    pub fn add_impedance(&mut self, face: &Face, impedance: f64, share: f64) -> Result<(), SolidError> {
+        within("impedance", impedance, impedance >= 0.0, "0 Pa s/m or more")?;
+        within("share", share, (0.5..=1.0).contains(&share), "0.5 to 1")?;
+        let at = self.places("impedance", &face.particles)?;
+        self.loads.impedance.extend(at.into_iter().zip(&face.area).map(|(at, area)| Impedance {
+            at,
+            normal: area.normalize_or_zero(),
+            coefficient: share * impedance * area.length(),
+            start: DVec3::ZERO,
+        }));
+        Ok(())
     }
 
     /// Acceleration of all particles \[m/s^2\].

@@ -11,7 +11,7 @@ impl<R: Real> Solid<R> {
     /// Speed of the fastest wave \[m/s\], in lengths of the reference configuration, where the body stands.
     pub fn wave_speed(&self) -> f64 {
         let rest = self.material.wave_speed(self.numbers.density);
-        rest.max((self.report.modulus / self.numbers.density).sqrt())
+        rest.max((self.body.modulus() / self.numbers.density).sqrt())
     }
 
     /// Largest stable step \[s\] where the body stands.
@@ -77,6 +77,7 @@ impl<R: Real> Solid<R> {
             self.accelerate(step)?;
             // The end of one sub-step and the beginning of the next see the same accelerations.
             self.kick(if k < n { step } else { 0.5 * step });
+            self.loads.resist(&mut self.state, &*self.body, step);
         }
         self.note_end(dt);
         Ok(())
@@ -87,8 +88,7 @@ impl<R: Real> Solid<R> {
     }
 
     fn accelerate(&mut self, dt: f64) -> Result<(), SolidError> {
-        self.report = self.body.accelerate(&mut self.state, &self.numbers, dt)?;
-        self.ledger.dissipation += dt * self.report.dissipation;
+        self.ledger.dissipation += self.body.accelerate(&mut self.state, &self.numbers, dt)?;
         if self.loads.follow() || !self.ready {
             self.loads.update(&self.state, &*self.body);
         }
@@ -121,6 +121,7 @@ impl<R: Real> Solid<R> {
     }
 
     fn note_start(&mut self) {
+        self.loads.note_start(&self.state);
         if let Some(shown) = &mut self.shown {
             shown.mean_velocity.copy_from_slice(&self.state.displacement);
             shown.acceleration.copy_from_slice(&self.state.velocity);

@@ -1,7 +1,7 @@
 //! Total-Lagrangian body: strain, stress and force by the frozen neighbours of the reference configuration.
 
 use crate::error::SolidError;
-use crate::formulation::{Formulation, Report, total};
+use crate::formulation::{Formulation, total};
 use crate::law::DISPLACEMENT_UNIT;
 use crate::law::force::Force;
 use crate::law::hourglass::{HourglassEnergy, NeighbourGradient};
@@ -169,19 +169,20 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
         self.reference.copy_to_images(&mut self.matrix, 0);
     }
 
-    /// Stress of all particles, packed with the hourglass control as `Q = P B - k G / 2`.
-    fn stress(&mut self, state: &SolidState, viscosity: f64, hourglass: f64) -> Result<Report, SolidError> {
+    /// Stress of all particles, packed with the hourglass control as `Q = P B - k G / 2`; returns the power taken by damping and
+    /// viscosity \[W\].
+    fn stress(&mut self, state: &SolidState, viscosity: f64, hourglass: f64) -> Result<f64, SolidError> {
         let n = state.len();
         let material = self.material;
         let (gradient, rate, damping) = (&self.gradient, &self.rate, &self.damping);
         let (correction, kinematic) = (&self.reference.correction, &self.kinematic);
         let (fibres, hourglass_stress) = (&self.fibres, &self.hourglass);
-        let chunks: Vec<Result<Report, usize>> = self.dynamic.as_mut_slice()[..n]
+        let chunks: Vec<Result<f64, usize>> = self.dynamic.as_mut_slice()[..n]
             .par_chunks_mut(CHUNK)
             .zip(self.matrix.as_mut_slice()[..n].par_chunks_mut(CHUNK))
             .enumerate()
             .map(|(c, (dynamic, matrix))| {
-                let mut report = Report::default();
+                let mut power = 0.0;
                 for (k, (dynamic, matrix)) in dynamic.iter_mut().zip(matrix).enumerate() {
                     let i = c * CHUNK + k;
                     let f = DMat3::IDENTITY + gradient[i];
@@ -189,17 +190,15 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
                     if determinant <= 0.0 || determinant.is_nan() {
                         return Err(i);
                     }
-                    let stress = material.stress(&f, &fibres.get(i).copied().unwrap_or_default());
-                    report.modulus = report.modulus.max(stress.modulus);
-                    let mut first_piola = stress.first_piola;
+                    let mut first_piola = material.stress(&f, &fibres.get(i).copied().unwrap_or_default());
                     if let Some(rate) = rate.get(i) {
                         let product = f.transpose() * *rate;
                         let viscous = f * ((0.5 * viscosity) * (product + product.transpose()));
                         first_piola += viscous;
-                        report.dissipation += state.volume[i] * contraction(&viscous, rate);
+                        power += state.volume[i] * contraction(&viscous, rate);
                     }
                     if let Some(acceleration) = damping.get(i) {
-                        report.dissipation -= state.mass[i] * acceleration.dot(state.velocity[i]);
+                        power -= state.mass[i] * acceleration.dot(state.velocity[i]);
                     }
                     if let Some(stress) = hourglass_stress.get(i) {
                         first_piola += *stress;
@@ -208,22 +207,20 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
                     *dynamic = kinematic.as_slice()[i];
                     (*matrix, dynamic[7]) = pack(&q);
                 }
-                Ok(report)
+                Ok(power)
             })
             .collect();
         self.reference.copy_to_images(&mut self.dynamic, 4);
         self.reference.copy_to_images(&mut self.matrix, 0);
-        let mut report = Report::default();
+        let mut power = 0.0;
         for chunk in chunks {
-            let chunk = chunk.map_err(|i| SolidError::Inverted {
+            power += chunk.map_err(|i| SolidError::Inverted {
                 particle: state.id[i],
                 position: state.position(i),
-                determinant: (DMat3::IDENTITY + self.gradient[i]).determinant(),
+                determinant: self.deformation(i).determinant(),
             })?;
-            report.modulus = report.modulus.max(chunk.modulus);
-            report.dissipation += chunk.dissipation;
         }
-        Ok(report)
+        Ok(power)
     }
 
     /// Accelerations by the divergence of the stress.
@@ -291,19 +288,19 @@ impl<R: Real, E: Elastic> Formulation for TotalLagrangian<R, E> {
         }
     }
 
-    fn accelerate(
-        &mut self,
-        state: &mut SolidState,
-        numbers: &Numbers,
-        dt: f64,
-    ) -> Result<Report, SolidError> {
+    fn accelerate(&mut self, state: &mut SolidState, numbers: &Numbers, dt: f64) -> Result<f64, SolidError> {
         let modulus = self.material.bulk_modulus() + 4.0 / 3.0 * self.material.shear_modulus();
         let hourglass = self.hourglass_modulus(numbers);
         self.strain(dt, numbers.damping * (modulus / numbers.density).sqrt());
         self.hourglass(hourglass);
-        let report = self.stress(state, numbers.viscosity, hourglass)?;
+        let power = self.stress(state, numbers.viscosity, hourglass)?;
         self.divergence(state, numbers.density, hourglass);
-        Ok(report)
+        Ok(dt * power)
+    }
+
+    fn modulus(&self) -> f64 {
+        let modulus = |i: usize| self.material.modulus(&self.deformation(i), &self.fibres(i));
+        (0..self.gradient.len()).into_par_iter().with_min_len(1024).map(modulus).reduce(|| 0.0, f64::max)
     }
 
     fn deformation(&self, i: usize) -> DMat3 {
@@ -312,8 +309,7 @@ impl<R: Real, E: Elastic> Formulation for TotalLagrangian<R, E> {
 
     fn cauchy_stress(&self, i: usize) -> DMat3 {
         let f = self.deformation(i);
-        let stress = self.material.stress(&f, &self.fibres(i));
-        (1.0 / f.determinant()) * (stress.first_piola * f.transpose())
+        (1.0 / f.determinant()) * (self.material.stress(&f, &self.fibres(i)) * f.transpose())
     }
 
     fn energies(&mut self, state: &SolidState, numbers: &Numbers) -> [f64; 2] {

@@ -4,7 +4,7 @@
 //! closed cycle of strain need not come back to zero.
 
 use crate::error::SolidError;
-use crate::formulation::{Formulation, Report, total};
+use crate::formulation::{Formulation, total};
 use crate::law::updated::{GRADIENT_SUMS, Momentum, VelocityGradient};
 use crate::mat3::{from_rows, full};
 use crate::material::HypoElastic;
@@ -262,12 +262,7 @@ impl<R: Real> Formulation for UpdatedLagrangian<R> {
             .for_each(|(u, v)| *u += dt * *v);
     }
 
-    fn accelerate(
-        &mut self,
-        state: &mut SolidState,
-        numbers: &Numbers,
-        dt: f64,
-    ) -> Result<Report, SolidError> {
+    fn accelerate(&mut self, state: &mut SolidState, numbers: &Numbers, dt: f64) -> Result<f64, SolidError> {
         let position: Vec<DVec3> = (0..state.len()).map(|i| state.position(i)).collect();
         let arrangement = Arrangement::new(&position, &self.kernel, self.period, self.isa);
         self.n_pairs = arrangement.rows.n_pairs();
@@ -276,10 +271,13 @@ impl<R: Real> Formulation for UpdatedLagrangian<R> {
             self.follow(&arrangement, &gradients, state, dt)?;
         }
         self.momentum(&arrangement, state, numbers);
-        let modulus = self.material.bulk + 4.0 / 3.0 * self.material.shear;
+        Ok(0.0)
+    }
+
+    fn modulus(&self) -> f64 {
         let top = self.columns.density_change.iter().fold(0.0_f64, |top, c| top.max(*c));
         // Waves cross present lengths: where the body is compressed they have less far to go.
-        Ok(Report { modulus: modulus * (1.0 + top).powf(2.0 / 3.0), dissipation: 0.0 })
+        (self.material.bulk + 4.0 / 3.0 * self.material.shear) * (1.0 + top).powf(2.0 / 3.0)
     }
 
     fn deformation(&self, i: usize) -> DMat3 {

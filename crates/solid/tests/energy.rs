@@ -61,6 +61,7 @@ fn swing<R: Real>(mut solid: Solid<R>, periods: usize) -> (f64, f64) {
 }
 
 #[test]
+#[ignore = "a minute: a hundred periods of 224 particles"]
 fn a_hundred_undamped_periods_keep_the_energy() {
     let (drift, share) = swing(bar::<f64>(numbers(true), 0.0), 100);
     assert!(drift < 0.01, "{drift}");

@@ -70,7 +70,7 @@ fn finite_inflation(material: &NeoHookean, pressure: f64) -> impl Fn(f64) -> f64
     let material = *material;
     let piola = move |radial: f64, hoop: f64| {
         let p = material.stress(&DMat3::from_diagonal(DVec3::new(radial, hoop, 1.0)), &[DVec3::ZERO; 2]);
-        (p.first_piola.x_axis.x, p.first_piola.y_axis.y)
+        (p.x_axis.x, p.y_axis.y)
     };
     // Radial stretch that carries the radial stress.
     let radial_of = move |stress: f64, hoop: f64| {

@@ -1,7 +1,7 @@
 //! Holzapfel, Gasser, Ogden: two families of fibres in a neo-Hookean matrix.
 
-use super::neo_hookean::{Inverse, isochoric};
-use super::{Elastic, Fibres, Stress, norm_squared, outer};
+use super::neo_hookean::{inverse_transposed, isochoric, isochoric_modulus};
+use super::{Elastic, Fibres, inverse_two_thirds, norm_squared, outer};
 use crate::error::{SolidError, within};
 use glam::{DMat3, DVec3};
 
@@ -56,6 +56,12 @@ impl HolzapfelGasserOgden {
         [cos * c + sin * a, cos * c - sin * a]
     }
 
+    /// Strain `E` of a family, of the isochoric first invariant and its squared stretch.
+    #[inline(always)]
+    fn strain(&self, i1: f64, i4: f64) -> f64 {
+        self.dispersion * i1 + (1.0 - 3.0 * self.dispersion) * i4 - 1.0
+    }
+
     /// Energy of one family, its derivative by the strain `E`, and the derivative of that.
     #[inline(always)]
     fn family(&self, strain: f64) -> [f64; 3] {
@@ -76,38 +82,45 @@ impl HolzapfelGasserOgden {
 impl Elastic for HolzapfelGasserOgden {
     fn energy(&self, f: &DMat3, fibres: &Fibres) -> f64 {
         let j = f.determinant();
-        let root = j.cbrt();
-        let i1 = norm_squared(f) / (root * root);
-        let d = self.dispersion;
-        let families = fibres.iter().map(|a| {
-            let strain = d * i1 + (1.0 - 3.0 * d) * (*f * *a).length_squared() - 1.0;
-            self.family(strain)[0]
-        });
+        let i1 = norm_squared(f) * inverse_two_thirds(j);
+        let families = fibres.iter().map(|a| self.family(self.strain(i1, (*f * *a).length_squared()))[0]);
         0.5 * self.matrix * (i1 - 3.0) + families.sum::<f64>() + 0.5 * self.bulk * (j - 1.0) * (j - 1.0)
     }
 
     #[inline(always)]
-    fn stress(&self, f: &DMat3, fibres: &Fibres) -> Stress {
-        let inverse = Inverse::new(f);
-        let (j, m2) = (inverse.j, inverse.compression);
-        // Derivative of I1* / 2, which the matrix and the dispersed part of the fibres share.
-        let (unit, unit_modulus) = isochoric(1.0, f, &inverse);
-        let root = j.cbrt();
-        let i1 = inverse.i1 / (root * root);
+    fn stress(&self, f: &DMat3, fibres: &Fibres) -> DMat3 {
+        let (inverse, j) = inverse_transposed(f);
+        // Half the derivative of I1*, which the matrix and the dispersed part of the fibres share.
+        let unit = isochoric(1.0, f, &inverse, j);
+        let i1 = norm_squared(f) * inverse_two_thirds(j);
         let d = self.dispersion;
-        let aligned = 1.0 - 3.0 * d;
-        let mut first_piola = self.matrix * unit + (self.bulk * (j - 1.0) * j) * inverse.transposed;
-        let mut modulus = self.matrix * unit_modulus + self.bulk * (j * j + j * (j - 1.0).abs()) * m2;
+        let mut shared = self.matrix;
+        let mut first_piola = (self.bulk * (j - 1.0) * j) * inverse;
         for a in fibres {
             let fa = *f * *a;
-            let i4 = fa.length_squared();
-            let [_, first, second] = self.family(d * i1 + aligned * i4 - 1.0);
-            first_piola += (2.0 * first * d) * unit + (2.0 * first * aligned) * outer(fa, *a);
-            // dE = 2 (d unit + aligned Fa (x) a) : dF, and the length of that gradient for dF = w (x) N.
-            let gradient = 2.0 * (d * norm_squared(&unit).sqrt() + aligned * i4.sqrt());
-            modulus += second * gradient * gradient + 2.0 * first * (d * unit_modulus + aligned);
+            let [_, first, _] = self.family(self.strain(i1, fa.length_squared()));
+            shared += 2.0 * first * d;
+            first_piola += outer((2.0 * first * (1.0 - 3.0 * d)) * fa, *a);
         }
-        Stress { first_piola, modulus }
+        first_piola + shared * unit
+    }
+
+    fn modulus(&self, f: &DMat3, fibres: &Fibres) -> f64 {
+        let (inverse, j) = inverse_transposed(f);
+        let (unit_modulus, compression) = isochoric_modulus(f);
+        let unit = norm_squared(&isochoric(1.0, f, &inverse, j)).sqrt();
+        let i1 = norm_squared(f) * inverse_two_thirds(j);
+        let (d, aligned) = (self.dispersion, 1.0 - 3.0 * self.dispersion);
+        let families = fibres.iter().map(|a| {
+            let i4 = (*f * *a).length_squared();
+            let [_, first, second] = self.family(self.strain(i1, i4));
+            // dE = 2 (d unit + aligned Fa (x) a) : dF, and the length of that gradient for dF = w (x) N.
+            let gradient = 2.0 * (d * unit + aligned * i4.sqrt());
+            second * gradient * gradient + 2.0 * first * (d * unit_modulus + aligned)
+        });
+        self.matrix * unit_modulus
+            + self.bulk * (j * j + j * (j - 1.0).abs()) * compression
+            + families.sum::<f64>()
     }
 
     fn bulk_modulus(&self) -> f64 {
@@ -144,7 +157,7 @@ mod tests {
         for stretch in [0.9, 1.1, 1.2] {
             let across = 1.0 / f64::sqrt(stretch);
             let f = DMat3::from_diagonal(DVec3::new(stretch, across, across));
-            let p = material.stress(&f, &fibres).first_piola;
+            let p = material.stress(&f, &fibres);
             // The pressure that keeps the sides free, taken off.
             let axial = p.x_axis.x - p.y_axis.y * across / stretch;
             let e: f64 = stretch * stretch - 1.0;

@@ -1,8 +1,8 @@
 //! Saint Venant-Kirchhoff.
 
-use super::{Elastic, Fibres, Stress, largest_eigenvalue, moduli, norm_squared};
+use super::{Elastic, Fibres, largest_eigenvalue, moduli, norm_squared};
 use crate::error::SolidError;
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 /// `S = lambda tr(E) I + 2 G E` with the Green strain `E`: for stretches of 0.8 to 1.3, as it stiffens in tension and gives
 /// way in compression.
@@ -31,15 +31,19 @@ impl Elastic for SaintVenantKirchhoff {
     }
 
     #[inline(always)]
-    fn stress(&self, f: &DMat3, _: &Fibres) -> Stress {
+    fn stress(&self, f: &DMat3, _: &Fibres) -> DMat3 {
+        let e = 0.5 * (f.transpose() * *f - DMat3::IDENTITY);
+        let trace = e.x_axis.x + e.y_axis.y + e.z_axis.z;
+        *f * (2.0 * self.shear * e + DMat3::from_diagonal(DVec3::splat(self.lambda * trace)))
+    }
+
+    /// `N.S N` for tension along the wave and `F C F^T` of the elasticity.
+    fn modulus(&self, f: &DMat3, _: &Fibres) -> f64 {
         let c = f.transpose() * *f;
         let trace = c.x_axis.x + c.y_axis.y + c.z_axis.z;
-        let dilation = 0.5 * self.lambda * (trace - 3.0);
-        let s = self.shear * (c - DMat3::IDENTITY) + DMat3::from_diagonal(glam::DVec3::splat(dilation));
         let stretch = largest_eigenvalue(trace, norm_squared(&c));
-        // A_ijkl N_j N_l = (N.S N) d_ik + F C F^T.
-        let tension = (dilation + self.shear * (stretch - 1.0)).max(0.0);
-        Stress { first_piola: *f * s, modulus: (self.lambda + 2.0 * self.shear) * stretch + tension }
+        let tension = 0.5 * self.lambda * (trace - 3.0) + self.shear * (stretch - 1.0);
+        (self.lambda + 2.0 * self.shear) * stretch + tension.max(0.0)
     }
 
     fn bulk_modulus(&self) -> f64 {
