@@ -76,7 +76,7 @@ impl Numbers {
         within("damping", self.damping, (0.0..=2.0).contains(&self.damping), "0 to 2")?;
         within("viscosity", self.viscosity, self.viscosity >= 0.0, "0 Pa s or more")?;
         let k = self.hourglass.stiffness;
-        within("hourglass", k, (0.0..=0.5).contains(&k), "0 to 0.5")?;
+        within("hourglass", k, (0.0..=1.0).contains(&k), "0 to 1")?;
         within("courant", self.courant, 0.0 < self.courant && self.courant <= 0.8, "above 0, up to 0.8")
     }
 }

@@ -231,7 +231,7 @@ fn one_layer_is_refused_and_bad_numbers_are_named() {
     assert!(refused(&|n| n.damping = -1.0).contains("`damping` is -1"));
     assert!(refused(&|n| n.smoothing_length = 5.0 * SPACING).contains("`smoothing_length`"));
     assert!(refused(&|n| n.density = f64::NAN).contains("`density` is NaN"));
-    let message = NeoHookean::new(1e5, 0.5).err().expect("incompressible").to_string();
+    let message = NeoHookean::new(1e5, 0.5).expect_err("incompressible").to_string();
     assert!(message.contains("`poisson` is 0.5"), "{message}");
     let mut solid = solid(&bar(), material(0.4));
     assert!(matches!(solid.clamp(&[256]), Err(SolidError::NoSuchParticle { particle: 256, len: 256, .. })));
