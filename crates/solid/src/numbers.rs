@@ -9,7 +9,8 @@ use crate::error::{SolidError, within};
 /// is as stiff on a lattice as 0.1 is with the other weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hourglass {
-    /// Factor `k`: 0 switches it off, 0.01 to 0.1 is sensible.
+    /// Factor `k`: 0 switches it off, 0.01 to 0.1 is sensible. With `1 / (1 + nu)` the isotropic part of the shear acts between
+    /// pairs, which carries bodies through violent motion and stiffens coarse ones.
     pub stiffness: f64,
     /// Whether its force is the full derivative of its energy. It then conserves energy and angular momentum, for one more
     /// loop over pairs; without, energy drifts by up to some 0.1 % a period of an undamped body.

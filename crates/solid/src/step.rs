@@ -39,6 +39,25 @@ impl<R: Real> Solid<R> {
         self.drift(0.0);
         self.accelerate(0.0)?;
         self.ready = true;
+        if let Some(shown) = &mut self.shown {
+            shown.mean_velocity.fill(DVec3::ZERO);
+            shown.acceleration.fill(DVec3::ZERO);
+            for (i, x) in shown.position.iter_mut().enumerate() {
+                *x = self.state.position(i);
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on from columns that were written between two steps, and now have been read: to the same bits.
+    ///
+    /// # Errors
+    /// [`SolidError::Inverted`].
+    pub fn resume(&mut self) -> Result<(), SolidError> {
+        // Damping saw the velocity of half a step earlier, which is not known any more; the acceleration is.
+        let acceleration = self.state.acceleration.to_vec();
+        self.refresh()?;
+        self.state.acceleration.copy_from_slice(&acceleration);
         Ok(())
     }
 

@@ -106,3 +106,41 @@ fn damping_is_counted() {
         assert!((end.balance() / start - 1.0).abs() < 0.02, "{}", end.balance() / start);
     }
 }
+
+/// Every other particle moved one way, the rest the other: the mean gradient sees nothing of it, the hourglass control does.
+#[test]
+fn a_checkerboard_decays() {
+    let body = lattice(DVec3::ZERO, [8, 8, 8], SPACING);
+    let pattern = |stiffness: f64| {
+        let numbers = Numbers {
+            hourglass: Hourglass { stiffness, variational: false },
+            ..Numbers::new(1120.0, SPACING)
+        };
+        let material = Material::NeoHookean(NeoHookean::new(4e5, 0.45).expect("in range"));
+        let mut solid =
+            Solid::<f64>::new(&body.particles(), material, numbers, Isa::detect()).expect("a sound body");
+        let sign = |solid: &Solid<f64>, i: usize| {
+            let site = (solid.state.reference_position[i] / SPACING).floor().as_i64vec3();
+            if (site.x + site.y + site.z) % 2 == 0 { 1.0 } else { -1.0 }
+        };
+        for i in 0..512 {
+            solid.state.displacement[i] = 0.02 * SPACING * sign(&solid, i) * DVec3::new(1.0, 0.5, -0.5);
+        }
+        solid.refresh().expect("not inverted");
+        let amplitude = |solid: &Solid<f64>| {
+            let sum: DVec3 = (0..512).map(|i| sign(solid, i) * solid.state.displacement[i]).sum();
+            sum.length() / 512.0
+        };
+        let (start, mut top) = (amplitude(&solid), 0.0_f64);
+        for step in 0..400 {
+            solid.advance_in(solid.stable_step(), 1).expect("a gentle motion");
+            if step >= 300 {
+                top = top.max(amplitude(&solid));
+            }
+        }
+        top / start
+    };
+    let (with, without) = (pattern(0.03), pattern(0.0));
+    println!("left of the pattern: {with:.3}, without hourglass control {without:.3}");
+    assert!(with < 0.05 && without > 2.0 * with, "{with} {without}");
+}

@@ -180,6 +180,64 @@ fn impedance_keeps_a_light_wall_stable() {
     assert!((run(Some(0.5)) - expected).abs() < 1e-9, "{}", run(Some(0.5)));
 }
 
+/// The same bits on any number of threads, and after going on from columns that were kept.
+#[test]
+fn threads_and_restarts_change_no_bit() {
+    struct Collect(Vec<u64>);
+    impl vaso_particles::Visitor for Collect {
+        fn scalar(&mut self, column: &mut vaso_particles::ScalarColumn) {
+            self.0.extend(column.iter().map(|x| x.to_bits()));
+        }
+        fn vector(&mut self, column: &mut vaso_particles::VectorColumn) {
+            self.0.extend(column.iter().flat_map(|x| x.to_array()).map(f64::to_bits));
+        }
+        fn integer(&mut self, column: &mut vaso_particles::Column<u64>) {
+            self.0.extend(column.iter());
+        }
+        fn label(&mut self, column: &mut vaso_particles::Column<i32>) {
+            self.0.extend(column.iter().map(|x| *x as u64));
+        }
+    }
+    let body = bar().jittered(0.1, SPACING);
+    let fresh = || {
+        let numbers = Numbers { viscosity: 0.1, ..Numbers::new(1000.0, SPACING) };
+        let mut solid = Solid::<f32>::new(&body.particles(), material(0.4), numbers, Isa::detect())
+            .expect("a sound body");
+        solid.clamp(&body.select(|x| x.x < 2.5 * SPACING)).expect("particles exist");
+        solid.set_gravity(DVec3::new(0.0, -9.81, 0.0));
+        solid.add_pressure(&end_face(&body), 50.0).expect("particles exist");
+        solid
+    };
+    let bits = |solid: &mut Solid<f32>| {
+        let mut collect = Collect(Vec::new());
+        vaso_particles::Columns::visit(solid, &mut collect);
+        collect.0
+    };
+    let on_threads = |n: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads");
+        pool.install(|| {
+            let mut solid = fresh();
+            for _ in 0..10 {
+                solid.advance(2e-5).expect("a gentle load");
+            }
+            let kept = solid.state.clone();
+            for _ in 0..10 {
+                solid.advance(2e-5).expect("a gentle load");
+            }
+            (kept, bits(&mut solid))
+        })
+    };
+    let (kept, one) = on_threads(1);
+    assert!(one == on_threads(3).1, "one thread and three");
+    let mut restarted = fresh();
+    restarted.state = kept;
+    restarted.resume().expect("sound columns");
+    for _ in 0..10 {
+        restarted.advance(2e-5).expect("a gentle load");
+    }
+    assert!(one == bits(&mut restarted), "unbroken and restarted");
+}
+
 /// The contract with a fluid: forces in, positions, velocities and acceleration of the step out.
 #[test]
 fn a_fluid_sees_what_its_forces_do() {
