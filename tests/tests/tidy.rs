@@ -17,6 +17,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("scene", &["units"]),
     ("generation", &["geometry", "kernels", "particles"]),
     ("fluid", &["kernels", "particles"]),
+    ("solid", &["kernels", "particles"]),
     ("metrics", &["geometry", "kernels", "particles"]),
     ("io", &["particles"]),
     ("boundary", &["fluid", "geometry", "particles"]),

@@ -15,7 +15,7 @@ pub mod wendland;
 pub use frame::Frame;
 pub use grid::CellGrid;
 pub use isa::Isa;
-pub use lanes::{Lanes, Real};
+pub use lanes::{FIELDS, Lanes, Real};
 pub use pairs::{Gather, Own, Pair, PairLaw, PairStore, Store, Stored, sweep};
 pub use records::Records;
 pub use rows::{CHUNK, RowChunk, Rows, SearchSet};

@@ -150,8 +150,8 @@ pub fn sweep<R: Real, P: PairLaw<R, K>, const K: usize>(
     let n = chunk.len();
     assert!(sums.len() >= n && gather.own.len() >= first + n, "rows of other particles");
     let largest = gather.other.len() * FIELDS;
-    // Rows are made by `Rows::build` alone, whose offsets rise to the null record and no further.
-    assert!(chunk.at.first().is_none_or(|&at| at as usize <= largest), "rows of other records");
+    // Rows are made by `Rows` alone, whose offsets go up to that of the null record and no further.
+    assert!(chunk.null as usize <= largest, "rows of other records");
     assert!(!P::SECOND_OWN || gather.own_second.is_some_and(|s| s.len() >= first + n), "own second records");
     let second_fits = |s: &Records<R>| s.len() == gather.other.len();
     assert!(!P::SECOND || gather.other_second.is_some_and(second_fits), "other second records");

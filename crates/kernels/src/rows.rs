@@ -58,6 +58,8 @@ pub struct RowChunk {
     pub(crate) start: Vec<u32>,
     /// Neighbours as element offsets into packed records (8 j); padding points at the null record.
     pub(crate) at: Vec<u32>,
+    /// Offset of the null record, which no entry exceeds.
+    pub(crate) null: u32,
     /// Neighbours without padding.
     n_pairs: usize,
 }
@@ -157,6 +159,26 @@ impl Rows {
             .map(|at| at / FIELDS)
     }
 
+    /// Lets entry `j` of all rows point at `to[j]` instead, out of `n_other` particles.
+    ///
+    /// Rows are found among particles in cell order; this way images of a periodic body can be kept behind the others.
+    ///
+    /// # Panics
+    /// If `to` has another length than the particles searched, or points beyond `n_other`.
+    pub fn redirect(&mut self, to: &[u32], n_other: usize) {
+        assert!(to.len() == self.n_other && n_other < u32::MAX as usize / FIELDS, "an entry a particle");
+        assert!(to.iter().all(|&j| (j as usize) < n_other), "entries beyond the particles");
+        let (old_null, new_null) = (FIELDS * self.n_other, FIELDS * n_other);
+        self.n_other = n_other;
+        self.chunks.par_iter_mut().for_each(|chunk| {
+            chunk.null = new_null as u32;
+            for at in &mut chunk.at {
+                let old = *at as usize;
+                *at = if old == old_null { new_null as u32 } else { FIELDS as u32 * to[old / FIELDS] };
+            }
+        });
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.chunks.iter().map(|c| 4 * (c.start.capacity() + c.at.capacity())).sum()
@@ -178,12 +200,13 @@ struct Search<'a> {
 impl<R: Real> LaneWork<R> for Search<'_> {
     #[inline(always)]
     fn run<L: Lanes<Elem = R>, S: SearchLanes>(self) {
-        let RowChunk { start, at, n_pairs } = self.chunk;
+        let RowChunk { start, at, null: largest, n_pairs } = self.chunk;
         let [x, y, z] = &self.other.axis;
         let null = (FIELDS * self.other.n) as u32;
         start.clear();
         at.clear();
         *n_pairs = 0;
+        *largest = null;
         // Neighbours in the order share a cell, and with it the runs to search.
         let mut cell = [usize::MAX; 3];
         let mut runs = self.grid.runs_around([0; 3]);

@@ -192,3 +192,16 @@ fn every_instruction_set_finds_the_same_rows() {
         }
     }
 }
+
+#[test]
+fn redirected_rows_point_where_they_are_told() {
+    let cloud = cloud();
+    let (rows, n) = (rows(&cloud, Isa::detect()), cloud.position.len());
+    let mut redirected = rows.clone();
+    let to: Vec<u32> = (0..n as u32).map(|j| n as u32 + 2 - j).collect();
+    redirected.redirect(&to, n + 3);
+    assert_eq!((redirected.n_other(), redirected.n_pairs()), (n + 3, rows.n_pairs()));
+    for i in (0..n).step_by(7) {
+        assert!(redirected.row(i).eq(rows.row(i).map(|j| n + 2 - j)), "row {i}");
+    }
+}

@@ -6,4 +6,4 @@ pub mod wall;
 
 pub use column::{Column, ScalarColumn, VectorColumn};
 pub use visit::{Columns, NonFinite, Visitor};
-pub use wall::{WallDistance, WallView};
+pub use wall::{WallDistance, WallLoad, WallMotion, WallView};

@@ -15,6 +15,29 @@ pub struct WallView<'a> {
     pub volume: &'a [f64],
 }
 
+/// How the wall moved over the last step of the fluid, beside what [`WallView`] shows of it.
+#[derive(Clone, Copy, Debug)]
+pub struct WallMotion<'a> {
+    /// Velocity at the end of the step \[m/s\].
+    pub end_velocity: &'a [DVec3],
+    /// Displacement over the step, divided by its length \[m/s\].
+    pub mean_velocity: &'a [DVec3],
+    /// Change of the end velocity over the step, divided by its length \[m/s^2\].
+    pub acceleration: &'a [DVec3],
+}
+
+/// What the fluid hands back: forces on the particles of the wall, in the order of its [`WallView`].
+///
+/// They hold until the next load; a wall keeps the pressure between acoustic steps, the viscous force between
+/// advective ones.
+#[derive(Clone, Copy, Debug)]
+pub struct WallLoad<'a> {
+    /// Force by pressure and its dissipation \[N\].
+    pub pressure_force: &'a [DVec3],
+    /// Force by viscosity \[N\].
+    pub viscous_force: &'a [DVec3],
+}
+
 /// Signed distance to the wall surface of the lumen, continued beyond the openings.
 pub trait WallDistance: Sync {
     /// Distance \[m\], negative in the lumen, and its unit gradient; may be clamped far from the wall.

@@ -1,0 +1,28 @@
+#![doc = include_str!("../README.md")]
+
+mod energy;
+pub mod error;
+mod face;
+mod formulation;
+pub mod law;
+mod load;
+mod mat3;
+pub mod material;
+mod numbers;
+mod output;
+mod reference;
+mod settle;
+mod solid;
+mod state;
+mod step;
+mod total;
+mod updated;
+
+pub use energy::Energies;
+pub use error::SolidError;
+pub use face::Face;
+pub use material::{HolzapfelGasserOgden, HypoElastic, Material, NeoHookean, SaintVenantKirchhoff};
+pub use numbers::{Hourglass, Numbers};
+pub use solid::{Particles, Solid};
+pub use state::SolidState;
+pub use vaso_kernels::{Isa, Real};
