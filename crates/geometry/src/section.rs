@@ -2,8 +2,9 @@
 
 use crate::distance::SignedDistance;
 use crate::distance_grid::DistanceGrid;
+use crate::opening::Opening;
 use crate::vessel::Vessel;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -26,15 +27,19 @@ impl Vessel {
             return None;
         }
         let smallest = self.openings.iter().map(|o| o.radius).fold(f64::INFINITY, f64::min);
-        let (low, high) = self.surface.bounds();
+        // Counted along axes of the vessel, so that it does not matter how that lies.
+        let axes = self.axes();
+        let turned = Vessel { surface: self.surface.map(|x| axes.transpose() * x), ..self.clone() };
+        let (low, high) = turned.surface.bounds();
         let extent = high - low;
         let spacing = (smallest / POINTS_ACROSS).max((extent.x * extent.y * extent.z / MOST_POINTS).cbrt());
-        let grid = DistanceGrid::build(&SignedDistance::closed(self), (low, high), spacing, 2.0 * spacing);
+        let grid = DistanceGrid::build(&SignedDistance::closed(&turned), (low, high), spacing, 2.0 * spacing);
         let n: [usize; 3] = (extent / spacing).to_array().map(|e| e.ceil() as usize + 1);
         let at = |k: usize| {
             let [i, j, l] = [k % n[0], k / n[0] % n[1], k / (n[0] * n[1])];
             low + spacing * DVec3::new(i as f64, j as f64, l as f64)
         };
+        let place = |k: usize| axes * at(k);
         let total = n[0] * n[1] * n[2];
         let inside: Vec<bool> = (0..total).map(|k| grid.sample(at(k)).0 < 0.0).collect();
 
@@ -44,11 +49,11 @@ impl Vessel {
         let mut front = BinaryHeap::new();
         let near_cap = |k: usize, depth: f64| {
             let o = inlet;
-            let x = at(k);
+            let x = place(k);
             (0.0..depth).contains(&o.depth(x)) && o.lateral(x) < 0.0
         };
         for k in (0..total).filter(|&k| inside[k] && near_cap(k, 1.5 * spacing)) {
-            length[k] = (1000.0 * inlet.depth(at(k)) / spacing) as u64;
+            length[k] = (1000.0 * inlet.depth(place(k)) / spacing) as u64;
             front.push(Reverse((length[k], k)));
         }
         while let Some(Reverse((reached, k))) = front.pop() {
@@ -71,7 +76,7 @@ impl Vessel {
         let first_exit = (0..total)
             .filter(|&k| length[k] < u64::MAX)
             .filter(|&k| {
-                others.iter().any(|o| o.depth(at(k)).abs() < 1.5 * spacing && o.lateral(at(k)) < 0.0)
+                others.iter().any(|o| o.depth(place(k)).abs() < 1.5 * spacing && o.lateral(place(k)) < 0.0)
             })
             .map(|k| length[k])
             .min()?;
@@ -85,6 +90,23 @@ impl Vessel {
         // The first slice touches the cap and is cut by it.
         let fewest = count.iter().skip(1).min().copied()?;
         Some(fewest as f64 * spacing * spacing / SLICE)
+    }
+}
+
+impl Vessel {
+    /// Unit axes that turn with the vessel, as columns: that of the largest opening last, and first across it towards the centre of
+    /// the opening farthest from it.
+    fn axes(&self) -> DMat3 {
+        let inlet = &self.openings[0];
+        let z = inlet.normal;
+        let across = |o: &Opening| (o.center - inlet.center).reject_from_normalized(z);
+        let farthest =
+            self.openings.iter().map(across).max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        // A straight pipe is the same from all sides.
+        let x = farthest
+            .filter(|x| x.length() > 1e-3 * inlet.radius)
+            .map_or(z.any_orthonormal_vector(), DVec3::normalize);
+        DMat3::from_cols(x, z.cross(x), z)
     }
 }
 
@@ -110,7 +132,7 @@ pub(crate) fn neighbour_steps() -> Vec<([i64; 3], u64)> {
 #[cfg(test)]
 mod tests {
     use crate::{LengthUnit, prepare, shapes};
-    use glam::DVec3;
+    use glam::{DMat3, DVec3};
 
     #[test]
     fn a_pipe_is_as_wide_as_its_caps() {
@@ -120,5 +142,17 @@ mod tests {
             let exact = std::f64::consts::PI * 4e-6;
             assert!((area / exact - 1.0).abs() < 0.12, "{axis}: {area} against {exact}");
         }
+    }
+
+    /// The sound speed of a run follows from it, so it must not depend on how the vessel lies.
+    #[test]
+    fn a_turned_vessel_is_as_narrow() {
+        let area = |turn: DMat3| {
+            let surface = shapes::bifurcation(&shapes::BifurcationSpec::default()).map(|x| turn * x);
+            let vessel = prepare(surface, Some(LengthUnit::Metre)).expect("a bifurcation");
+            vessel.narrowest_section().expect("three openings")
+        };
+        let (straight, turned) = (area(DMat3::IDENTITY), area(DMat3::from_axis_angle(DVec3::X, 0.7)));
+        assert!((turned / straight - 1.0).abs() < 0.01, "{turned} against {straight}");
     }
 }
