@@ -1,11 +1,10 @@
 //! End of an advective step: the transport-velocity shift and the guard at the wall.
 
 use crate::cap::CapZone;
-use crate::fluid::{FAR, Fluid, numbered};
-use crate::law::density::CapResidual;
+use crate::fluid::Fluid;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
+use vaso_kernels::{CHUNK, Real};
 
 /// What the guard had to do in a step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -25,39 +24,23 @@ const LOST: f64 = 2.0;
 
 impl<R: Real> Fluid<R> {
     /// Shifts particles against their kernel-gradient residual (Adami, Hu, Adams 2013; Lind et al.
-    /// 2012), which keeps them evenly spread; velocities stay.
-    ///
-    /// Near caps the missing support beyond would push particles out. There the part along the normal is that of an even
-    /// support ([`CapResidual`]). Without it particles pile up behind an outlet where the flow hardly moves.
+    /// 2012), which keeps them evenly spread; velocities stay. Near caps only the part along the cap
+    /// is taken: the missing support beyond it would push particles out.
     pub fn transport(&mut self, zones: &[CapZone]) {
-        let numbers = self.numbers;
+        let numbers = &self.numbers;
         let h2 = numbers.smoothing_length * numbers.smoothing_length;
         let limit = numbers.shift_limit * numbers.spacing;
-        let gradient = self.kernel.gradient_scale();
-        let law = CapResidual { sharpness: self.kernel.support() / numbers.spacing };
-        let (isa, zone_of, next) = (self.isa, &self.zone_of, &self.next);
-        let gather =
-            Gather { frame: &self.frame, own: next, other: next, own_second: None, other_second: None };
-        (self.state.position.par_chunks_mut(CHUNK), self.frozen.par_chunks(CHUNK), self.rows.chunks())
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(c, (position, frozen, row))| {
-                let mut even = [[0.0; 3]; CHUNK];
-                if frozen.iter().any(|f| f.cap_depth < FAR) {
-                    sweep(isa, &law, &gather, numbered(row, c), Store::None, &mut even);
-                }
-                for (k, x) in position.iter_mut().enumerate() {
-                    let mut residual = 0.5 * frozen[k].support;
-                    if let Some(zone) = zone_of[c * CHUNK + k].checked_sub(1) {
-                        let normal = zones[zone as usize].normal;
-                        let along = -gradient * DVec3::from_array(even[k]).dot(normal);
-                        residual += (along - residual.dot(normal)) * normal;
-                    }
-                    let chi = (400.0 * h2 * residual.length_squared()).min(1.0);
-                    let shift = -2.0 * numbers.shift_strength * h2 * chi * residual;
-                    *x += shift.clamp_length_max(limit);
-                }
-            });
+        let (frozen, zone_of) = (&self.frozen, &self.zone_of);
+        self.state.position.par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, x)| {
+            let mut residual = 0.5 * frozen[i].support;
+            if zone_of[i] != 0 {
+                let normal = zones[zone_of[i] as usize - 1].normal;
+                residual -= residual.dot(normal) * normal;
+            }
+            let chi = (400.0 * h2 * residual.length_squared()).min(1.0);
+            let shift = -2.0 * numbers.shift_strength * h2 * chi * residual;
+            *x += shift.clamp_length_max(limit);
+        });
     }
 
     /// Puts particles that touch the wall back into the lumen and stops their motion towards it.

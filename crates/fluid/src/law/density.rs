@@ -1,6 +1,6 @@
-//! Continuity: velocity divergence between fluid particles, and what of a support is even near caps.
+//! Continuity: velocity divergence between fluid particles.
 
-use super::{add_scaled, dot, gradient_weight};
+use super::{dot, gradient_weight};
 use vaso_kernels::{Lanes, Own, Pair, PairLaw, Real};
 
 /// Sum of `V u^3 (v_i - v_j) . d`.
@@ -44,7 +44,10 @@ impl<R: Real> PairLaw<R, 1> for CapDivergence {
 
     #[inline(always)]
     fn pair<L: Lanes<Elem = R>>(sharpness: &L, own: &Own<L>, p: &Pair<L>, sums: &mut [L; 1]) {
-        let share = even_share(*sharpness, own.scalar, p.scalar);
+        let one = L::constant(1.0);
+        let is_within = sharpness.fma(own.scalar + own.scalar - p.scalar, L::constant(0.5)).min(one);
+        let is_deep = (own.scalar - one) * L::constant(STEEP);
+        let share = is_within.max(is_deep.min(one)).max(L::zero());
         let dv = [
             own.velocity[0] - p.velocity[0],
             own.velocity[1] - p.velocity[1],
@@ -52,34 +55,4 @@ impl<R: Real> PairLaw<R, 1> for CapDivergence {
         ];
         sums[0] = (gradient_weight(p.u, p.volume) * share).fma(dot(dv, p.d), sums[0]);
     }
-}
-
-/// Sum of `V u^3 d` over the same part of the support as [`CapDivergence`]: zero where particles are evenly spread along the
-/// normal, however near the cap.
-pub struct CapResidual {
-    /// Supports over the length within which a neighbour fades out.
-    pub sharpness: f64,
-}
-
-impl<R: Real> PairLaw<R, 3> for CapResidual {
-    type Constants<L: Lanes<Elem = R>> = L;
-
-    fn constants<L: Lanes<Elem = R>>(&self) -> L {
-        L::constant(self.sharpness)
-    }
-
-    #[inline(always)]
-    fn pair<L: Lanes<Elem = R>>(sharpness: &L, own: &Own<L>, p: &Pair<L>, sums: &mut [L; 3]) {
-        let share = even_share(*sharpness, own.scalar, p.scalar);
-        add_scaled(sums, 0, gradient_weight(p.u, p.volume) * share, p.d);
-    }
-}
-
-/// Share of a neighbour at the depth `other` in what a particle at `own` sees, both in supports.
-#[inline(always)]
-fn even_share<L: Lanes>(sharpness: L, own: L, other: L) -> L {
-    let one = L::constant(1.0);
-    let is_within = sharpness.fma(own + own - other, L::constant(0.5)).min(one);
-    let is_deep = (own - one) * L::constant(STEEP);
-    is_within.max(is_deep.min(one)).max(L::zero())
 }
