@@ -136,7 +136,9 @@ impl Results {
                 self.next_row += case.scene.output.table_every;
             }
         }
-        if flow.time >= self.next_frame {
+        // The last frame is written once what is summed over cycles has come to its end.
+        let is_last = settled.is_some() || flow.time >= plan.end_time;
+        if flow.time >= self.next_frame && !is_last {
             self.write_frame(flow, case)?;
             while self.next_frame <= flow.time {
                 self.next_frame += case.scene.output.every;
