@@ -64,7 +64,7 @@ impl<R: Real> Fluid<R> {
                 for k in 0..frozen.len() {
                     let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
                     let rho = rho0 + density_change[c * CHUNK + k];
-                    let depths = w[12] / frozen.inverse_distance.max(f64::MIN_POSITIVE) + w[13];
+                    let depths = w[12] * frozen.wall_distance() + w[13];
                     let [bx, by, bz, ..] = strain[k];
                     let wall = DVec3::new(w[0], w[1], w[2]) - depths * DVec3::new(bx, by, bz);
                     let drag = DVec3::new(f[3], f[4], f[5]) + wall;

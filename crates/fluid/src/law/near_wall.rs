@@ -34,7 +34,8 @@ impl<R: Real> PairLaw<R, SUMS> for NearWall {
 
 /// Adds the particle itself, which its row leaves out: at distance `s` \[supports\], of volume `volume` and velocity `v`.
 pub fn add_own(sums: &mut [f64; SUMS], s: f64, volume: f64, v: [f64; 3]) {
-    let weight = 5.0 * volume;
+    // u = 1, so u^4 (5 - 4u) = 1.
+    let weight = volume;
     let powers = [s, s * s, s * s * s, s * s * s * s];
     for (sum, power) in sums.iter_mut().zip(powers) {
         *sum += weight * power;
@@ -79,6 +80,14 @@ mod tests {
         for (q, b) in b.into_iter().enumerate() {
             assert!((b + q as f64 + 1.0).abs() < 1e-12, "{b}");
         }
+    }
+
+    #[test]
+    fn the_particle_itself_weighs_its_volume() {
+        let mut sums = [0.0; SUMS];
+        add_own(&mut sums, 0.5, 2.0, [1.0, 0.0, 0.0]);
+        assert_eq!(sums[..4], [1.0, 0.5, 0.25, 0.125]);
+        assert_eq!((sums[4], sums[7]), (1.0, 0.5));
     }
 
     #[test]
