@@ -27,6 +27,10 @@ validate:
 validate-long:
     cargo test -p vaso-tests --test validation --test carotid -- --ignored --nocapture
 
+# Solids alone over long times: beams, columns, energy; half an hour on two cores, the columns with VASO_DATA set.
+validate-solids:
+    cargo test --release -p vaso-solid --tests -- --ignored --nocapture
+
 # Micro-benchmarks.
 bench:
     cargo bench -p vaso-benches
