@@ -67,16 +67,19 @@ impl<R: Real> Fluid<R> {
                     let depths = w[12] * frozen.wall_distance() + w[13];
                     let [bx, by, bz, ..] = strain[k];
                     let wall = DVec3::new(w[0], w[1], w[2]) - depths * DVec3::new(bx, by, bz);
-                    let drag = DVec3::new(f[3], f[4], f[5]) + wall;
+                    let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
+                    let slope = velocity_gradient(&raw, frozen);
+                    // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends.
+                    let lean = support * DVec3::new(f[15] + w[14], f[16] + w[15], f[17] + w[16]);
+                    let wall = wall - slope.transpose() * lean;
                     // With a law of the shear rate, what fluid pairs add is found anew once it is known.
                     frozen.acceleration = match rheology {
-                        None => -gradient * mu / (support * rho) * drag,
+                        None => -gradient * mu / (support * rho) * (DVec3::new(f[3], f[4], f[5]) + wall),
                         Some(_) => -gradient / (support * rho) * wall,
                     };
                     let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
                     set_gradient_sums(frozen, neighbours);
-                    let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
-                    strain[k] = scaled_strain(&raw, frozen, 0.5 * support);
+                    strain[k] = scaled_strain(&slope, 0.5 * support);
                 }
             });
     }
@@ -184,10 +187,14 @@ fn set_gradient_sums(frozen: &mut Frozen, neighbours: DVec3) {
     frozen.support = frozen.own_pressure + b.mul(frozen.fluid_gradient + frozen.wall_gradient);
 }
 
-/// Symmetric part of the corrected velocity gradient, times `scale`; `raw` is `sum V (v_j - v_i) (x) grad W`.
-fn scaled_strain(raw: &[f64; 9], frozen: &Frozen, scale: f64) -> [f64; 6] {
+/// Corrected velocity gradient \[1/s\], column by column those of the components; `raw` is `sum V (v_j - v_i) (x) grad W`.
+fn velocity_gradient(raw: &[f64; 9], frozen: &Frozen) -> DMat3 {
     let row = |r: usize| frozen.correction.mul(DVec3::new(raw[3 * r], raw[3 * r + 1], raw[3 * r + 2]));
-    let g = DMat3::from_cols(row(0), row(1), row(2));
+    DMat3::from_cols(row(0), row(1), row(2))
+}
+
+/// Symmetric part of a velocity gradient, times `scale`.
+fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
     let sym = |a: usize, b: usize| 0.5 * scale * (g.col(a)[b] + g.col(b)[a]);
     [sym(0, 0), sym(1, 1), sym(2, 2), sym(0, 1), sym(0, 2), sym(1, 2)]
 }
