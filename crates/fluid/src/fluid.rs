@@ -4,7 +4,7 @@ use crate::cap::CapZone;
 use crate::numbers::Numbers;
 use crate::state::FluidState;
 use crate::wall::WallSide;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use vaso_kernels::{
     CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland,
@@ -89,8 +89,8 @@ pub struct Fluid<R> {
     pub(crate) second: Records<R>,
     pub(crate) offsets: PairStore<R>,
     pub(crate) frozen: Vec<Frozen>,
-    /// Velocity gradients between the viscous and the offset sweep.
-    pub(crate) strain: Vec<[f64; 6]>,
+    /// Gradients of the components of the velocity, column by column \[1/s\].
+    pub(crate) slope: Vec<DMat3>,
     /// One more than the place in the zone list, zero away from caps.
     pub(crate) zone_of: Vec<u32>,
     pub(crate) lattice_sum: f64,
@@ -128,7 +128,7 @@ impl<R: Real> Fluid<R> {
             second: Records::default(),
             offsets: PairStore::default(),
             frozen: Vec::new(),
-            strain: Vec::new(),
+            slope: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
             elapsed: 0.0,
@@ -163,7 +163,7 @@ impl<R: Real> Fluid<R> {
             + self.offsets.bytes()
             + self.grid.bytes()
             + self.frozen.capacity() * size_of::<Frozen>()
-            + self.strain.capacity() * size_of::<[f64; 6]>()
+            + self.slope.capacity() * size_of::<DMat3>()
             + 4 * (self.zone_of.capacity() + self.order.capacity())
     }
 

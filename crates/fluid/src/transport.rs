@@ -31,7 +31,8 @@ const PARTING: f64 = 0.5;
 
 impl<R: Real> Fluid<R> {
     /// Shifts particles against their kernel-gradient residual (Adami, Hu, Adams 2013; Lind et al.
-    /// 2012), which keeps them evenly spread; velocities stay.
+    /// 2012), which keeps them evenly spread. Each takes on the velocity of its new place, by its gradient (Lind et al. 2012):
+    /// carried along, velocities would mix across the flow as if it were more viscous.
     ///
     /// Near caps only the part along the cap is taken: the missing support beyond it would push particles out. Where blood goes in
     /// and out slowly nothing else parts particles that have come close along the normal, so pairs that are too close are moved
@@ -43,12 +44,18 @@ impl<R: Real> Fluid<R> {
         let support = self.kernel.support();
         let law = Separation { distance: CROWDED * numbers.spacing / support };
         let (isa, zone_of, next) = (self.isa, &self.zone_of, &self.next);
+        let slope = &self.slope;
         let gather =
             Gather { frame: &self.frame, own: next, other: next, own_second: None, other_second: None };
-        (self.state.position.par_chunks_mut(CHUNK), self.frozen.par_chunks(CHUNK), self.rows.chunks())
+        (
+            self.state.position.par_chunks_mut(CHUNK),
+            self.state.velocity.par_chunks_mut(CHUNK),
+            self.frozen.par_chunks(CHUNK),
+            self.rows.chunks(),
+        )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (position, frozen, row))| {
+            .for_each(|(c, (position, velocity, frozen, row))| {
                 let mut crowd = [[0.0; 3]; CHUNK];
                 if (0..position.len()).any(|k| zone_of[c * CHUNK + k] != 0) {
                     sweep(isa, &law, &gather, numbered(row, c), Store::None, &mut crowd);
@@ -64,7 +71,9 @@ impl<R: Real> Fluid<R> {
                     }
                     let chi = (400.0 * h2 * residual.length_squared()).min(1.0);
                     let shift = -2.0 * numbers.shift_strength * h2 * chi * residual;
-                    *x += shift.clamp_length_max(limit) + parting;
+                    let way = shift.clamp_length_max(limit) + parting;
+                    *x += way;
+                    velocity[k] += slope[c * CHUNK + k].transpose() * way;
                 }
             });
     }

@@ -48,13 +48,13 @@ impl<R: Real> Fluid<R> {
         };
         (
             self.frozen.par_chunks_mut(CHUNK),
-            self.strain.par_chunks_mut(CHUNK),
+            self.slope.par_chunks_mut(CHUNK),
             self.rows.chunks(),
             wall.fluid_rows.chunks(),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (frozen, strain, row, wall_row))| {
+            .for_each(|(c, (frozen, slopes, row, wall_row))| {
                 let mut fluid = [[0.0; FLUID_SUMS]; CHUNK];
                 let mut walls = [[0.0; WALL_SUMS]; CHUNK];
                 sweep(isa, &FluidViscosity, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
@@ -65,8 +65,8 @@ impl<R: Real> Fluid<R> {
                     let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
                     let rho = rho0 + density_change[c * CHUNK + k];
                     let depths = w[12] * frozen.wall_distance() + w[13];
-                    let [bx, by, bz, ..] = strain[k];
-                    let wall = DVec3::new(w[0], w[1], w[2]) - depths * DVec3::new(bx, by, bz);
+                    let bend = slopes[k].x_axis;
+                    let wall = DVec3::new(w[0], w[1], w[2]) - depths * bend;
                     let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
                     let slope = velocity_gradient(&raw, frozen);
                     // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends.
@@ -79,17 +79,17 @@ impl<R: Real> Fluid<R> {
                     };
                     let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
                     set_gradient_sums(frozen, neighbours);
-                    strain[k] = scaled_strain(&slope, 0.5 * support);
+                    slopes[k] = slope;
                 }
             });
     }
 
-    /// Finds how the velocity bends near the wall, the `b` of [`NearWall`] \[1/(m s)\]. It stands in the first three places of the
-    /// strain until that is found.
+    /// Finds how the velocity bends near the wall, the `b` of [`NearWall`] \[1/(m s)\]. It stands in the first column of the
+    /// velocity gradient until that is found.
     fn near_wall(&mut self) {
         let support = self.kernel.support();
-        self.strain.clear();
-        self.strain.resize(self.state.len(), [0.0; 6]);
+        self.slope.clear();
+        self.slope.resize(self.state.len(), DMat3::ZERO);
         let frozen = &self.frozen;
         self.current
             .as_mut_slice()
@@ -100,7 +100,7 @@ impl<R: Real> Fluid<R> {
         let (isa, current, velocity) = (self.isa, &self.current, &self.state.velocity);
         let gather =
             Gather { frame: &self.frame, own: current, other: current, own_second: None, other_second: None };
-        (self.strain.par_chunks_mut(CHUNK), self.rows.chunks(), self.wall.fluid_rows.chunks())
+        (self.slope.par_chunks_mut(CHUNK), self.rows.chunks(), self.wall.fluid_rows.chunks())
             .into_par_iter()
             .enumerate()
             .filter(|(_, (_, _, wall_row))| !wall_row.has_no_pairs())
@@ -114,7 +114,7 @@ impl<R: Real> Fluid<R> {
                     near_wall::add_own(&mut sums[k], s, volume, velocity[i].to_array());
                     // The wall is at rest.
                     let b = near_wall::curvature(&sums[k], [0.0; 3]);
-                    bend[k][..3].copy_from_slice(&b.map(|b| b / (support * support)));
+                    bend[k].x_axis = DVec3::from_array(b) / (support * support);
                 }
             });
     }
@@ -122,8 +122,8 @@ impl<R: Real> Fluid<R> {
     /// Finds the velocity offsets of all pairs from the velocity gradient of [`Self::viscosity`].
     pub fn offsets(&mut self) {
         let isa = self.isa;
-        let strain = &self.strain;
-        self.second.fill(|i| pack_sym(&strain[i]));
+        let (slope, half) = (&self.slope, 0.5 * self.kernel.support());
+        self.second.fill(|i| pack_sym(&scaled_strain(&slope[i], half)));
         self.offsets.resize_for(self.rows.chunks());
         let gather = Gather {
             frame: &self.frame,
@@ -147,16 +147,15 @@ impl<R: Real> Fluid<R> {
         let Some(rheology) = self.numbers.rheology else { return };
         let support = self.kernel.support();
         let (gradient, rho0) = (self.kernel.gradient_scale(), self.numbers.rest_density);
-        // The strain is kept in units of half a support.
-        let per_scale = 2.0 / support;
-        self.current.as_mut_slice().par_iter_mut().zip(&self.strain).with_min_len(1024).for_each(
-            |(record, strain)| {
-                let eta = rheology.viscosity(per_scale * shear_rate(strain));
+        let viscosity = |slope: &DMat3| rheology.viscosity(shear_rate(&scaled_strain(slope, 1.0)));
+        self.current.as_mut_slice().par_iter_mut().zip(&self.slope).with_min_len(1024).for_each(
+            |(record, slope)| {
+                let eta = viscosity(slope);
                 record[7] = R::pack(1.0 / eta);
             },
         );
         let density_change = &self.state.density_change;
-        let (isa, current, strain) = (self.isa, &self.current, &self.strain);
+        let (isa, current, slope) = (self.isa, &self.current, &self.slope);
         let gather = Gather {
             frame: &self.frame,
             own: current,
@@ -170,7 +169,7 @@ impl<R: Real> Fluid<R> {
                 sweep(isa, &ThinningViscosity, &gather, numbered(row, c), Store::None, &mut sums);
                 for (k, frozen) in frozen.iter_mut().enumerate() {
                     let i = c * CHUNK + k;
-                    let eta = rheology.viscosity(per_scale * shear_rate(&strain[i]));
+                    let eta = viscosity(&slope[i]);
                     let rho = rho0 + density_change[i];
                     let drag = -gradient / (support * rho) * DVec3::from_array(sums[k]);
                     frozen.acceleration = eta * frozen.acceleration + drag;
