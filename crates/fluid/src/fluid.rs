@@ -28,6 +28,10 @@ pub(crate) struct Frozen {
     pub acceleration: DVec3,
     /// Unit normal of the nearest wall, towards the fluid.
     pub wall_normal: DVec3,
+    /// `sum V (x_j - x_i) (x) grad W` over the fluid: the part of the moment matrix that continuity sees.
+    pub fluid_moment: Sym3,
+    /// What continuity takes for compression in a flow that only shears, by uneven neighbours \[1/s\]; zero near caps.
+    pub false_convergence: f64,
     /// `sum V |dW/dr|` over the wall \[1/m\].
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
@@ -57,6 +61,8 @@ impl Default for Frozen {
             support: DVec3::ZERO,
             acceleration: DVec3::ZERO,
             wall_normal: DVec3::ZERO,
+            fluid_moment: Sym3([0.0; 6]),
+            false_convergence: 0.0,
             wall_area: 0.0,
             inverse_distance: 0.0,
             cap_depth: FAR,

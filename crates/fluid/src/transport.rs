@@ -71,9 +71,11 @@ impl<R: Real> Fluid<R> {
                     }
                     let chi = (400.0 * h2 * residual.length_squared()).min(1.0);
                     let shift = -2.0 * numbers.shift_strength * h2 * chi * residual;
-                    let way = shift.clamp_length_max(limit) + parting;
-                    *x += way;
-                    velocity[k] += slope[c * CHUNK + k].transpose() * way;
+                    let way = shift.clamp_length_max(limit);
+                    *x += way + parting;
+                    if zone_of[c * CHUNK + k] == 0 {
+                        velocity[k] += slope[c * CHUNK + k].transpose() * way;
+                    }
                 }
             });
     }

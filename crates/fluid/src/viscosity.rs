@@ -9,7 +9,7 @@ use crate::rheology::shear_rate;
 use crate::summation::pack_sym;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
+use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, sweep};
 
 impl<R: Real> Fluid<R> {
     /// Finds the viscous acceleration, the own-pressure and support sums, and the velocity gradient; needs
@@ -29,7 +29,7 @@ impl<R: Real> Fluid<R> {
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
         let (mu, rho0, rheology) = (self.numbers.viscosity, self.numbers.rest_density, self.numbers.rheology);
-        let density_change = &self.state.density_change;
+        let (density_change, zone_of) = (&self.state.density_change, &self.zone_of);
         let (isa, frame) = (self.isa, &self.frame);
         let (current, second, wall) = (&self.current, &self.second, &self.wall);
         let fluid_gather = Gather {
@@ -69,9 +69,11 @@ impl<R: Real> Fluid<R> {
                     let wall = DVec3::new(w[0], w[1], w[2]) - depths * bend;
                     let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
                     let slope = velocity_gradient(&raw, frozen);
-                    // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends.
+                    // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends. Near caps
+                    // it is the drag of the neighbours left that keeps particles together.
                     let lean = support * DVec3::new(f[15] + w[14], f[16] + w[15], f[17] + w[16]);
-                    let wall = wall - slope.transpose() * lean;
+                    let is_inner = zone_of[c * CHUNK + k] == 0;
+                    let wall = if is_inner { wall - slope.transpose() * lean } else { wall };
                     // With a law of the shear rate, what fluid pairs add is found anew once it is known.
                     frozen.acceleration = match rheology {
                         None => -gradient * mu / (support * rho) * (DVec3::new(f[3], f[4], f[5]) + wall),
@@ -80,6 +82,9 @@ impl<R: Real> Fluid<R> {
                     let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
                     set_gradient_sums(frozen, neighbours);
                     slopes[k] = slope;
+                    if is_inner {
+                        frozen.false_convergence = false_convergence(&slope, &frozen.fluid_moment);
+                    }
                 }
             });
     }
@@ -196,4 +201,14 @@ fn velocity_gradient(raw: &[f64; 9], frozen: &Frozen) -> DMat3 {
 fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
     let sym = |a: usize, b: usize| 0.5 * scale * (g.col(a)[b] + g.col(b)[a]);
     [sym(0, 0), sym(1, 1), sym(2, 2), sym(0, 1), sym(0, 2), sym(1, 2)]
+}
+
+/// Convergence \[1/s\] that the uncorrected sum over fluid neighbours of moment `m` finds in the part of a velocity gradient that changes
+/// no volume.
+fn false_convergence(g: &DMat3, Sym3(m): &Sym3) -> f64 {
+    let d = scaled_strain(g, 1.0);
+    let third = (d[0] + d[1] + d[2]) / 3.0;
+    let normal: f64 = (0..3).map(|q| (d[q] - third) * m[q]).sum();
+    let shear: f64 = (3..6).map(|q| d[q] * m[q]).sum();
+    -(normal + 2.0 * shear)
 }
