@@ -132,6 +132,7 @@ impl<R: Real> Flow<R> {
         ledger.time(Stage::Exchange, || {
             fluid.sort();
             openings.locate(&fluid.state);
+            openings.tie(&mut fluid.state, self.time);
         });
         ledger.time(Stage::Rows, || fluid.search(openings.zones()));
         ledger.time(Stage::Summation, || fluid.summation(openings.zones()));
