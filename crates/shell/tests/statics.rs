@@ -120,7 +120,7 @@ fn pinched(around: usize) -> f64 {
 #[test]
 #[ignore = "minutes: eight thousand particles"]
 fn the_pinched_cylinder_is_within_six_percent() {
-    let ratio = [80, 112, 160, 224].map(pinched);
+    let ratio = [112, 160, 224].map(pinched);
     assert!((ratio[2] - 1.0).abs() < 0.06, "{ratio:?}");
 }
 
@@ -129,12 +129,8 @@ fn the_pinched_cylinder_is_within_six_percent() {
 fn square(n: usize, clamped: bool) -> f64 {
     let (young, poisson, thickness) = (1e6, 0.3, 0.01);
     let step = 1.0 / n as f64;
-    // Three rows behind the clamp: two smoothing lengths.
-    let behind = if clamped { std::env::var("BH").ok().and_then(|s| s.parse().ok()).unwrap_or(3) } else { 0 };
-    let reach = behind as f64 * step;
-    let rows = Rows::OnEnds(n + 1 + 2 * behind);
-    let mut body = plate([1.0 + 2.0 * reach; 2], thickness, [rows; 2]);
-    body.position.iter_mut().for_each(|x| *x -= DVec3::new(reach, reach, 0.0));
+    // The last row stands on the line of the support, clamped or not, with half its area.
+    let body = plate([1.0; 2], thickness, [Rows::OnEnds(n + 1); 2]);
     let mut shell = shell(&body, young, poisson, step);
     let inside = |x: f64| 1e-9 < x && x < 1.0 - 1e-9;
     let outside = body.select(|x| !(inside(x.x) && inside(x.y)));
@@ -150,7 +146,7 @@ fn square(n: usize, clamped: bool) -> f64 {
 
 #[test]
 fn square_plates_sag_as_in_theory() {
-    for clamped in [false, true] { for n in [16, 24, 48] { square(n, clamped); }
+    for clamped in [true, false] {
         let ratio = square(32, clamped);
         assert!((ratio - 1.0).abs() < 0.03, "clamped {clamped}: {ratio}");
     }

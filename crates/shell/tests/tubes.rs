@@ -17,15 +17,17 @@ fn radius() -> f64 {
     AROUND as f64 * SPACING / TAU
 }
 
-/// A tube with clamped ends under the pressure `strain E' t / R`.
-fn pressed(thickness: f64, model: Model, jitter: f64, strain: f64, damping: f64) -> Shell<f64> {
+/// A tube under the pressure `strain E' t / R`, with clamped ends or, in plane strain, as a piece of a long one.
+fn pressed(thickness: f64, model: Model, jitter: f64, strain: f64, damping: f64, clamped: bool) -> Shell<f64> {
     let body = tube((radius(), ALONG as f64 * SPACING, thickness), AROUND, ALONG, jitter);
     let material = Material::new(YOUNG, POISSON, model).expect("in range");
     let numbers = Numbers { damping, ..Numbers::new(1100.0, SPACING) };
     let mut shell = Shell::new(&body.particles(), material, numbers, Isa::detect()).expect("a sound body");
     let end = 2.4 * SPACING;
     let ends = body.select(|x| x.z < end || x.z > ALONG as f64 * SPACING - end);
-    shell.hold(&ends, Support::CLAMPED).expect("particles exist");
+    let (held, support) =
+        if clamped { (ends, Support::CLAMPED) } else { (body.all(), Support::sliding(DVec3::Z)) };
+    shell.hold(&held, support).expect("particles exist");
     let pressure = strain * YOUNG / (1.0 - POISSON * POISSON) * thickness / radius();
     shell.add_pressure(&body.all(), &body.area, pressure).expect("particles exist");
     shell
@@ -66,22 +68,22 @@ fn stretch(load: f64) -> f64 {
     low
 }
 
-/// Strains of 8 and 20 % with three points through the thickness.
+/// Strains of 6, 13 and 20 % with three points through the thickness.
 #[test]
 fn a_neo_hookean_tube_follows_its_law() {
-    for strain in [0.05, 0.1] {
-        let mut shell = pressed(0.5e-3, Model::NeoHookean { points: 3 }, 0.0, strain, 0.0);
+    for strain in [0.05, 0.1, 0.15] {
+        let mut shell = pressed(0.5e-3, Model::NeoHookean { points: 3 }, 0.0, strain, 0.0, false);
         let (steps, rest) = shell.settle(1e-3, 100_000).expect("not inside out");
         let load = strain * YOUNG / (1.0 - POISSON * POISSON);
         let (found, expected) = (hoop(&shell), stretch(load) - 1.0);
         println!("pR/E't {strain}: {found:.4} of {expected:.4}, {steps} steps, {rest:.1e}");
-        assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
+        assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
         // Thin-walled equilibrium of the present: sigma = p r / t.
         let i = middle(&shell)[7];
-        let sigma = load * 0.5e-3 * (1.0 + found) * (1.0 + found) / shell.thickness(i);
+        let sigma = load * 0.5e-3 * (1.0 + found) / shell.thickness(i);
         let principal = shell.principal_stresses(i, Height::Middle)[0];
         println!("stress {principal:.4e} of {sigma:.4e}");
-        assert!((principal / sigma - 1.0).abs() < 0.05, "{principal} {sigma}");
+        assert!((principal / sigma - 1.0).abs() < 0.02, "{principal} {sigma}");
     }
 }
 
@@ -90,32 +92,19 @@ fn a_neo_hookean_tube_follows_its_law() {
 #[test]
 fn tubes_of_any_thickness_are_stable() {
     for ratio in [0.05, 0.1, 0.3, 0.5, 0.85, 2.0, 4.0] {
-        let mut shell = pressed(ratio * SPACING, Model::Resultant, 0.05, 0.01, 0.25);
+        let mut shell = pressed(ratio * SPACING, Model::Resultant, 0.05, 0.01, 0.25, true);
         let period = TAU * radius() * (1100.0 * (1.0 - POISSON * POISSON) / YOUNG).sqrt();
         let mut peak = 0.0_f64;
-        for _ in 0..40 {
+        for _ in 0..25 {
             shell.advance(period).expect("stable");
             peak = peak.max(hoop(&shell));
         }
-        let found = hoop(&shell);
+        let (found, energies) = (hoop(&shell), shell.energies());
         println!("t/dp {ratio}: strain {found:.5}, peak {peak:.5}");
-        // Follower pressure adds 1 %, a thick wall that bends between its clamps takes off.
-        assert!(peak < 0.025 && (0.7..1.1).contains(&(found / 0.01)), "{found}");
+        // The disorder makes the mean up to a fifth softer where the wall is thin, the clamps make a thick one stiffer.
+        assert!(peak < 0.025 && (0.7..1.25).contains(&(found / 0.01)), "{found}");
+        // Zigzags of a wall without bending stiffness are not damped; they stay small.
+        assert!(energies.kinetic < 0.05 * energies.strain(), "{energies:?}");
     }
 }
 
-#[test]
-fn probe() {
-    for jitter in [0.0, 0.05, 0.15] {
-    for ratio in [0.05, 0.1, 0.5, 2.0] {
-        for (what, mut shell) in [("pressure", pressed(ratio * SPACING, Model::Resultant, jitter, 0.001, 0.0))] {
-            let (steps, rest) = shell.settle(1e-4, 20_000).expect("x");
-            let at = middle(&shell);
-            let rad = |&i: &usize| { let x = shell.state.reference_position[i]; shell.state.displacement[i].dot(DVec3::new(x.x, x.y, 0.0).normalize()) / radius() / 0.001 };
-            let m = at.iter().map(rad).sum::<f64>() / at.len() as f64;
-            let sd = (at.iter().map(|i| (rad(i) - m).powi(2)).sum::<f64>() / at.len() as f64).sqrt();
-            println!("{what} jit {jitter} t/dp {ratio}: {m:.4} sd {sd:.4} steps {steps} {rest:.1e} {:?}", shell.energies());
-            if jitter == 0.0 { for k in 0..24 { let z = (k as f64 + 0.5) * SPACING; let row: Vec<usize> = (0..shell.state.len()).filter(|&i| (shell.state.reference_position[i].z - z).abs() < 1e-6).collect(); print!("{:.3}/{:.3} ", row.iter().map(rad).sum::<f64>() / row.len() as f64, shell.principal_stresses(row[0], Height::Middle)[0] / (0.001 * YOUNG / (1.0 - POISSON * POISSON))); } println!(); }
-        }
-    } }
-}
