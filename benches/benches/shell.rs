@@ -44,12 +44,12 @@ fn substeps<R: Real>(criterion: &mut Criterion, (position, normal): &(Vec<DVec3>
     ] {
         let material = Material::new(1.1e6, 0.45, model).expect("in range");
         for isa in Isa::available() {
-            let mut shell = Shell::<R>::new(&particles, material, numbers, isa).expect("a sound body");
-            for (v, x) in shell.state.velocity.iter_mut().zip(shell.state.reference_position.iter()) {
-                *v = 0.05 * DVec3::new((300.0 * x.y).sin(), (200.0 * x.z).sin(), (100.0 * x.x).sin());
-            }
-            let dt = STEPS as f64 * shell.stable_step();
             group.bench_function(BenchmarkId::new(name, isa.name()), |b| {
+                let mut shell = Shell::<R>::new(&particles, material, numbers, isa).expect("a sound body");
+                for (v, x) in shell.state.velocity.iter_mut().zip(shell.state.reference_position.iter()) {
+                    *v = 0.05 * DVec3::new((300.0 * x.y).sin(), (200.0 * x.z).sin(), (100.0 * x.x).sin());
+                }
+                let dt = STEPS as f64 * shell.stable_step();
                 b.iter(|| shell.advance_in(dt, STEPS).expect("a gentle motion"));
             });
         }

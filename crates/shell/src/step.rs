@@ -10,6 +10,19 @@ use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Real};
 use vaso_particles::{WallMotion, WallView};
 
+/// `sin(x) / x` and `cos(x)` of the square of `x`. Directors turn by little a step, where series are exact and cheap.
+#[inline(always)]
+fn sinc_cos(square: f64) -> (f64, f64) {
+    if square < 0.01 {
+        let s = square;
+        let sinc = 1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0)));
+        let cosine = 1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0))));
+        return (sinc, cosine);
+    }
+    let (sine, cosine) = square.sqrt().sin_cos();
+    (sine / square.sqrt(), cosine)
+}
+
 impl<R: Real> Shell<R> {
     /// Largest stable step \[s\] where the shell stands.
     pub fn stable_step(&self) -> f64 {
@@ -117,13 +130,10 @@ impl<R: Real> Shell<R> {
         );
         columns.into_par_iter().with_min_len(1024).for_each(|(u, v, n, w)| {
             *u += dt * *v;
-            let rate = w.length();
-            if rate > 0.0 {
-                let (sine, cosine) = (rate * dt).sin_cos();
-                let (before, along) = (*n, *w / rate);
-                *n = (cosine * before + sine * along).normalize();
-                *w = rate * (cosine * along - sine * before);
-            }
+            let (sinc, cosine) = sinc_cos(w.length_squared() * dt * dt);
+            let (before, rate) = (*n, *w);
+            *n = (cosine * before + (sinc * dt) * rate).normalize();
+            *w = cosine * rate - (sinc * dt * rate.length_squared()) * before;
         });
     }
 
@@ -209,5 +219,17 @@ impl<R: Real> Shell<R> {
             self.state.mass[i] * (held.displacement.of(a) - a)
         };
         (0..self.state.len()).map(of).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_series_meet_the_functions() {
+        for k in 0..300 {
+            let x = 1e-3 * f64::from(k) + 1e-9;
+            let (sinc, cosine) = super::sinc_cos(x * x);
+            assert!((sinc - x.sin() / x).abs() < 3e-16 && (cosine - x.cos()).abs() < 3e-16, "{x}");
+        }
     }
 }
