@@ -193,8 +193,10 @@ impl<R: Real> Fluid<R> {
                     let i = c * CHUNK + k;
                     let v = velocity[i];
                     let rho = numbers.rest_density + density_change[k];
-                    // Walls at rest: the mirrored velocity doubles their part.
-                    let convergence = 2.0 * v.dot(frozen[k].wall_gradient) - gradient * sums[k][0];
+                    // Walls at rest: the mirrored velocity doubles their part. Sliding along them compresses nothing.
+                    let normal = frozen[k].wall_normal;
+                    let to_wall = 2.0 * v.dot(normal) * normal.dot(frozen[k].wall_gradient);
+                    let convergence = to_wall - gradient * sums[k][0] - frozen[k].false_convergence;
                     rate[k] += rho * convergence;
                     density_change[k] += 0.5 * dt * rate[k];
                     if let Some(dt) = dt_next {

@@ -9,6 +9,7 @@ pub mod moments;
 pub mod near_wall;
 pub mod offset;
 pub mod pressure;
+pub mod separation;
 pub mod thinning;
 pub mod viscosity;
 pub mod wall_pressure;
