@@ -18,7 +18,8 @@ fn inflated<R: Real>(thickness: f64) -> (f64, f64) {
     let length = 32.0 * SPACING;
     let surface = shapes::pipe(lumen * 1e3, length * 1e3, DVec3::Z, 192);
     let vessel = prepare(surface, Some(LengthUnit::Millimetre)).expect("a closed shape is a vessel");
-    let body = shell(&vessel, &ShellSettings::new(SPACING, thickness), &mut |_, _| {}).expect("it suits the vessel");
+    let body =
+        shell(&vessel, &ShellSettings::new(SPACING, thickness), &mut |_, _| {}).expect("it suits the vessel");
     let particles = Particles {
         position: &body.position,
         normal: &body.normal,

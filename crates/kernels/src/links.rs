@@ -212,8 +212,9 @@ mod tests {
     }
 
     fn numbers_meet_their_neighbours<R: Real>(tolerance: f64) {
-        let position: Vec<DVec3> =
-            (0..400).map(|k| DVec3::new(f64::from(k % 20), f64::from(k / 20), 0.1 * f64::from(k % 7))).collect();
+        let position: Vec<DVec3> = (0..400)
+            .map(|k| DVec3::new(f64::from(k % 20), f64::from(k / 20), 0.1 * f64::from(k % 7)))
+            .collect();
         let bounds = (DVec3::ZERO, DVec3::new(19.0, 19.0, 0.7));
         let (frame, mut grid) = (Frame::new(bounds, 2.3), CellGrid::new(bounds, 2.3));
         let mut order = Vec::new();

@@ -1,11 +1,12 @@
 //! The way from positions and directors to accelerations: gradient, hourglass control and section, divergence.
 
+use crate::damping::Damper;
 use crate::error::ShellError;
-use crate::law::{DIRECTOR_UNIT, DISPLACEMENT_UNIT, Divergence, Gradient, Hourglass, HourglassEnergy};
+use crate::law::{DIRECTOR_UNIT, DISPLACEMENT_UNIT, Divergence, Gradient, Hourglass};
 use crate::material::{Material, Model};
 use crate::numbers::Numbers;
 use crate::reference::Reference;
-use crate::section::{Layer, Motion, Present, Resultants, Strain, energy, linear, parts, strain};
+use crate::section::{Layer, Motion, Present, Resultants, Strain, linear, parts, strain};
 use crate::state::ShellState;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -18,9 +19,9 @@ pub(crate) struct Forces<R> {
     /// Points through the thickness, particle by particle; none for resultants.
     layers: Vec<Layer>,
     n_layers: usize,
-    motion: Vec<Motion>,
+    pub(crate) motion: Vec<Motion>,
     /// Displacement gradient of the mid-surface, `F - I`, the director its third column.
-    gradient: Vec<DMat3>,
+    pub(crate) gradient: Vec<DMat3>,
     /// Strain of the step before, for its rate; empty without damping.
     strain: Vec<Strain>,
     /// Force \[Pa\] and couple \[N/m\] by area that the particle gives itself.
@@ -33,7 +34,7 @@ pub(crate) struct Forces<R> {
     /// Columns of the force and of the moment.
     force: Records<R>,
     moment: Records<R>,
-    isa: Isa,
+    pub(crate) isa: Isa,
 }
 
 /// Matrix of sums taken row by row, times `scale`.
@@ -78,7 +79,7 @@ impl<R: Real> Forces<R> {
         }
     }
 
-    fn layers(&self, i: usize) -> &[Layer] {
+    pub(crate) fn layers(&self, i: usize) -> &[Layer] {
         &self.layers[i * self.n_layers..(i + 1) * self.n_layers]
     }
 
@@ -149,7 +150,7 @@ impl<R: Real> Forces<R> {
     }
 
     /// What the pair loops of the hourglass control gather.
-    fn gather(&self) -> Gather<'_, R> {
+    pub(crate) fn gather(&self) -> Gather<'_, R> {
         Gather {
             frame: &self.reference.frame,
             own: &self.jump,
@@ -197,7 +198,8 @@ impl<R: Real> Forces<R> {
                     if determinant <= 0.0 || determinant.is_nan() {
                         return Err(i);
                     }
-                    let (base, thickness, director) = (&reference.base[i], state.thickness[i], state.director[i]);
+                    let (base, thickness, director) =
+                        (&reference.base[i], state.thickness[i], state.director[i]);
                     let present = Present::new(base, &motion[i], director);
                     let mut r = Resultants::default();
                     let e = strain(base, &motion[i], director);
@@ -243,7 +245,8 @@ impl<R: Real> Forces<R> {
     fn divergence(&self, state: &mut ShellState) {
         let (isa, reference, own) = (self.isa, &self.reference, &self.own);
         let records = (&self.force, Some(&self.moment));
-        let ShellState { acceleration, director_acceleration, director, area, mass, rotary_inertia, .. } = state;
+        let ShellState { acceleration, director_acceleration, director, area, mass, rotary_inertia, .. } =
+            state;
         let (director, area, mass, inertia) = (&**director, &**area, &**mass, &**rotary_inertia);
         acceleration
             .par_chunks_mut(CHUNK)
@@ -262,72 +265,6 @@ impl<R: Real> Forces<R> {
                     *turn = (area[i] / inertia[i]) * across(couple, director[i]);
                 }
             });
-    }
-
-    /// Energies of membrane, bending, shear and hourglass control \[J\].
-    pub(crate) fn energies(&self, state: &ShellState, numbers: &Numbers) -> [f64; 4] {
-        let modulus = numbers.hourglass * self.material.young();
-        let gather = self.gather();
-        let rows = self.reference.rows.chunks();
-        let chunks: Vec<[f64; 4]> = (0..rows.len())
-            .into_par_iter()
-            .map(|c| {
-                let mut sums = [[0.0; 1]; CHUNK];
-                let stored = Store::Read(&self.reference.hourglass.chunks()[c]);
-                sweep(self.isa, &HourglassEnergy, &gather, (&rows[c], c * CHUNK), stored, &mut sums);
-                let mut total = [0.0; 4];
-                for k in 0..rows[c].len() {
-                    let i = c * CHUNK + k;
-                    let (base, motion) = (&self.reference.base[i], &self.motion[i]);
-                    let (thickness, director) = (state.thickness[i], state.director[i]);
-                    let parts = energy(&self.material, thickness, base, motion, director, self.layers(i));
-                    for (total, part) in total.iter_mut().zip(parts) {
-                        *total += state.area[i] * part;
-                    }
-                    total[3] += 0.25 * modulus * state.area[i] * sums[k][0];
-                }
-                total
-            })
-            .collect();
-        chunks.iter().fold([0.0; 4], |sum, part| std::array::from_fn(|k| sum[k] + part[k]))
-    }
-
-    /// Largest growth of the stiffness since the reference configuration: 1 at rest.
-    pub(crate) fn stiffening(&self) -> f64 {
-        let of = |i: usize| {
-            let f = DMat3::IDENTITY + self.gradient[i];
-            let [x, y] = self.reference.base[i].tangent.map(|t| f * t);
-            let (mean, half) = (0.5 * (x.dot(x) + y.dot(y)), 0.5 * (x.dot(x) - y.dot(y)));
-            let radius = half.hypot(x.dot(y));
-            match self.material.model() {
-                // d^2 psi / d lambda^2 of E'/8 (lambda^2 - 1)^2, with the strain across taken as equal.
-                Model::Resultant => 1.0 + 3.0 * (mean + radius - 1.0).max(0.0),
-                // That of an incompressible sheet held across, G (1 + 3 lambda^-4).
-                Model::NeoHookean { .. } => {
-                    let least = (mean - radius).max(f64::MIN_POSITIVE);
-                    0.25 * (1.0 + 3.0 / (least * least)).max(4.0)
-                }
-            }
-        };
-        (0..self.gradient.len()).into_par_iter().with_min_len(1024).map(of).reduce(|| 1.0, f64::max)
-    }
-
-    /// Deformation gradient of the mid-surface with the director as the image of the reference one.
-    pub(crate) fn deformation(&self, i: usize) -> DMat3 {
-        DMat3::IDENTITY + self.gradient[i]
-    }
-
-    /// Area vector by reference area, along the present normal on the side of the director.
-    pub(crate) fn area_vector(&self, i: usize) -> DVec3 {
-        let f = self.deformation(i);
-        let [x, y] = self.reference.base[i].tangent.map(|t| f * t);
-        x.cross(y)
-    }
-
-    /// Deformation gradient along tangents and director at the height `zeta` \[m\].
-    pub(crate) fn deformation_at(&self, i: usize, zeta: f64, director: DVec3) -> DMat3 {
-        let base = &self.reference.base[i];
-        Layer::at(base, zeta).deformation(&Present::new(base, &self.motion[i], director))
     }
 
     pub(crate) fn bytes(&self) -> usize {
@@ -351,30 +288,4 @@ pub(crate) fn across(v: DVec3, n: DVec3) -> DVec3 {
 #[inline(always)]
 fn packed<R: Real>([a, b]: &[DVec3; 2]) -> [R; FIELDS] {
     [a.x, a.y, a.z, b.x, b.y, b.z, 0.0, 0.0].map(R::pack)
-}
-
-/// Kelvin-Voigt damping of membrane and bending by `beta rho c h / 2`, of shear by `beta / 2` of its critical damping.
-struct Damper {
-    beta: f64,
-    density: f64,
-    shear: f64,
-    viscosity: f64,
-}
-
-impl Damper {
-    fn new(material: &Material, numbers: &Numbers) -> Self {
-        let (beta, density) = (numbers.damping, numbers.density);
-        let speed = (material.plate() / density).sqrt();
-        let viscosity = 0.5 * beta * density * speed * numbers.smoothing_length;
-        Self { beta, density, shear: material.shear(), viscosity }
-    }
-
-    #[inline(always)]
-    fn resultants(&self, thickness: f64, rotary: f64, rate: &Strain) -> [f64; 8] {
-        let membrane = self.viscosity * thickness;
-        let bending = membrane * thickness * thickness / 12.0;
-        let stiffness = crate::material::SHEAR_CORRECTION * self.shear * thickness;
-        let shear = 0.5 * self.beta * (self.density * rotary * stiffness).sqrt();
-        std::array::from_fn(|k| rate[k] * [membrane, bending, shear][k / 3])
-    }
 }

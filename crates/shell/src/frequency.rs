@@ -43,8 +43,9 @@ pub(crate) fn highest_frequency<R: Real>(
         let factor = SIZE / size(&state, numbers.spacing);
         for i in 0..state.len() {
             state.displacement[i] = factor * state.acceleration[i];
-            state.director[i] =
-                (rest.director[i] + factor * across(state.director_acceleration[i], rest.director[i])).normalize();
+            state.director[i] = (rest.director[i]
+                + factor * across(state.director_acceleration[i], rest.director[i]))
+            .normalize();
         }
         forces.accelerate(&mut state, &undamped, 0.0)?;
         // Rayleigh quotient of the stiffness with the masses as the metric.

@@ -1,12 +1,15 @@
 #![doc = include_str!("../README.md")]
 
+mod damping;
 mod energy;
 pub mod error;
 mod forces;
 mod frequency;
 pub mod law;
 mod load;
+mod loading;
 mod material;
+mod measures;
 mod numbers;
 mod output;
 mod reference;

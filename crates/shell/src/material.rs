@@ -92,8 +92,7 @@ pub(crate) fn neo_hookean_energy(shear: f64, lame: f64, c: &[f64; 5]) -> [f64; 2
     let j2 = c11 * c22 - c12 * c12;
     let c33 = across(shear, lame, j2);
     let j = j2 * c33;
-    let plane =
-        0.5 * shear * (c11 + c22 + c33 - 3.0 - j.ln()) + 0.25 * lame * (j - 1.0 - j.ln());
+    let plane = 0.5 * shear * (c11 + c22 + c33 - 3.0 - j.ln()) + 0.25 * lame * (j - 1.0 - j.ln());
     [plane, 0.5 * SHEAR_CORRECTION * shear * (c13 * c13 + c23 * c23)]
 }
 

@@ -51,8 +51,8 @@ impl Numbers {
     /// It holds to a fifth for regular particles; a shell measures its own ([`crate::Shell::stable_step`]).
     pub fn expected_step(&self, material: &Material, thickness: f64) -> f64 {
         let membrane = material.plate() / (self.density * self.smoothing_length * self.smoothing_length);
-        let shear = SHEAR_CORRECTION * material.shear() * thickness
-            / (4.0 * self.density * self.rotary(thickness));
+        let shear =
+            SHEAR_CORRECTION * material.shear() * thickness / (4.0 * self.density * self.rotary(thickness));
         let z = 0.46 * self.damping;
         self.courant * ((1.0 + z * z).sqrt() - z) / (membrane + shear).sqrt()
     }

@@ -28,29 +28,25 @@ impl<R: Real> Shell<R> {
         };
         let f = self.forces.deformation_at(i, zeta, self.state.director[i]);
         let c = cauchy_green(&f);
-        let [c11, c22, c12, c13, c23] = c;
         let material = self.material();
-        let (shear, lame, j2) = (material.shear(), material.lame(), c11 * c22 - c12 * c12);
-        let (stress, stretch) = match material.model() {
+        let [c11, c22, c12, c13, c23] = c;
+        let (shear, stretch) = (material.shear(), self.stretch_across(&c));
+        let stress = match material.model() {
             Model::Resultant => {
                 let (plate, nu) = (material.plate(), material.poisson());
                 let (e11, e22) = (0.5 * (c11 - 1.0), 0.5 * (c22 - 1.0));
                 let transverse = SHEAR_CORRECTION * shear;
-                let s = [
+                [
                     plate * (e11 + nu * e22),
                     plate * (e22 + nu * e11),
                     shear * c12,
                     transverse * c13,
                     transverse * c23,
-                ];
-                // Plane stress of the linear law.
-                (s, (1.0 - 2.0 * nu / (1.0 - nu) * (e11 + e22)).max(f64::MIN_POSITIVE).sqrt())
+                ]
             }
-            Model::NeoHookean { .. } => {
-                (neo_hookean_stress(shear, lame, &c), across(shear, lame, j2).sqrt())
-            }
+            Model::NeoHookean { .. } => neo_hookean_stress(shear, material.lame(), &c),
         };
-        let j = j2.sqrt() * stretch;
+        let j = (c11 * c22 - c12 * c12).sqrt() * stretch;
         (1.0 / j) * (first_piola(&f, &stress) * f.transpose())
     }
 
@@ -86,17 +82,21 @@ impl<R: Real> Shell<R> {
 
     /// Present thickness \[m\] at particle `i`: that at which there is no stress across the shell.
     pub fn thickness(&self, i: usize) -> f64 {
+        let f = self.forces.deformation_at(i, 0.0, self.state.director[i]);
+        self.state.thickness[i] * self.stretch_across(&cauchy_green(&f))
+    }
+
+    /// Stretch across the shell at the Cauchy-Green components `c`; not a number where the linear law has none.
+    fn stretch_across(&self, c: &[f64; 5]) -> f64 {
+        let [c11, c22, c12, ..] = *c;
         let material = self.material();
-        let j2 = self.area_stretch(i).powi(2);
-        let stretch = match material.model() {
+        let square = match material.model() {
             Model::Resultant => {
-                let f = self.forces.deformation_at(i, 0.0, self.state.director[i]);
-                let [c11, c22, ..] = cauchy_green(&f);
                 let nu = material.poisson();
-                (1.0 - nu / (1.0 - nu) * (c11 + c22 - 2.0)).max(f64::MIN_POSITIVE)
+                1.0 - nu / (1.0 - nu) * (c11 + c22 - 2.0)
             }
-            Model::NeoHookean { .. } => across(material.shear(), material.lame(), j2),
+            Model::NeoHookean { .. } => across(material.shear(), material.lame(), c11 * c22 - c12 * c12),
         };
-        self.state.thickness[i] * stretch.sqrt()
+        square.sqrt()
     }
 }

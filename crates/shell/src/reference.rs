@@ -129,7 +129,8 @@ impl<R: Real> Reference<R> {
         let mut blank = Records::default();
         blank.resize(n);
         blank.fill(|i| {
-            let (fixed, scaled) = (frame.fixed(particles.position[i]), frame.in_supports(particles.position[i]));
+            let (fixed, scaled) =
+                (frame.fixed(particles.position[i]), frame.in_supports(particles.position[i]));
             let mut record = [R::coordinate(0, 0.0); FIELDS];
             for c in 0..3 {
                 record[c] = R::coordinate(fixed[c], scaled[c]);

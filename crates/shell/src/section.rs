@@ -52,8 +52,7 @@ impl Present {
 pub(crate) fn strain(base: &Base, motion: &Motion, director: DVec3) -> Strain {
     let Present { g, .. } = Present::new(base, motion, director);
     let (u, n) = (&motion.u, &motion.n);
-    let eps =
-        |a: usize, b: usize| 0.5 * (base.g[a].dot(u[b]) + u[a].dot(base.g[b]) + u[a].dot(u[b]));
+    let eps = |a: usize, b: usize| 0.5 * (base.g[a].dot(u[b]) + u[a].dot(base.g[b]) + u[a].dot(u[b]));
     let kap = |a: usize, b: usize| u[a].dot(base.n[b]) + g[a].dot(n[b]);
     let gam = |a: usize| u[a].dot(director) + base.g[a].dot(director - base.director);
     let twist = 0.5 * (kap(0, 1) + kap(1, 0));

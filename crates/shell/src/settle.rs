@@ -59,7 +59,8 @@ impl<R: Real> Shell<R> {
         let (mut rest, mut loads) = (0.0, 0.0);
         for i in 0..state.len() {
             let held = numbered(state.support[i], &self.supports);
-            let (director, arm) = (state.director[i], state.rotary_inertia[i] / self.numbers.smoothing_length);
+            let (director, arm) =
+                (state.director[i], state.rotary_inertia[i] / self.numbers.smoothing_length);
             let (external, couple) = (self.loads.on(i), across(self.loads.on_director(i), director));
             let turn = turning(state.director_acceleration[i] + couple, held.director, director);
             rest += state.mass[i] * held.displacement.of(state.acceleration[i] + external).length();

@@ -16,7 +16,8 @@ fn sinc_cos(square: f64) -> (f64, f64) {
     if square < 0.01 {
         let s = square;
         let sinc = 1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0)));
-        let cosine = 1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0))));
+        let cosine =
+            1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0))));
         return (sinc, cosine);
     }
     let (sine, cosine) = square.sqrt().sin_cos();

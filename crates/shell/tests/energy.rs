@@ -93,8 +93,8 @@ fn a_free_spin_keeps_energy_and_turns() {
     let size = (RADIUS, 10.0 * SPACING, 0.5e-3);
     let body = cylinder(size, (0.0, PI), (Rows::Inside(19), Rows::Inside(10)), 0.05);
     let material = Material::new(YOUNG, 0.45, Model::Resultant).expect("in range");
-    let mut shell =
-        Shell::<f64>::new(&body.particles(), material, numbers(0.0, 0.35), Isa::detect()).expect("a sound body");
+    let mut shell = Shell::<f64>::new(&body.particles(), material, numbers(0.0, 0.35), Isa::detect())
+        .expect("a sound body");
     let mass: f64 = shell.state.mass.iter().sum();
     let weighted = |i: usize| shell.state.mass[i] * shell.state.reference_position[i];
     let centre = (0..shell.state.len()).map(weighted).sum::<DVec3>() / mass;

@@ -57,7 +57,10 @@ fn a_strip_rolls_up_to_a_circle() {
     let (steps, rest) = shell.settle(1e-4, 400_000).expect("not inside out");
     let u = mean(&shell, &tip);
     let director = shell.state.director[shell.place(tip[0] as usize)];
-    println!("circle: {:.4} {:.4} of -12 0, director {director:.3}, {steps} steps, residual {rest:.1e}", u.x, u.z);
+    println!(
+        "circle: {:.4} {:.4} of -12 0, director {director:.3}, {steps} steps, residual {rest:.1e}",
+        u.x, u.z
+    );
     assert!((u.x + 12.0).abs() < 0.03 * 12.0 && u.z.abs() < 0.03 * 12.0, "{u}");
     assert!(director.z > 0.98, "{director}");
 }

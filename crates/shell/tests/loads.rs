@@ -6,9 +6,7 @@ use glam::DVec3;
 use std::f64::consts::TAU;
 use support::{Body, Rows, plate, tube};
 use vaso_particles::WallLoad;
-use vaso_shell::{
-    Height, Hold, Isa, Material, Model, Numbers, Particles, Real, Shell, ShellError, Support,
-};
+use vaso_shell::{Height, Hold, Isa, Material, Model, Numbers, Particles, Real, Shell, ShellError, Support};
 
 const SPACING: f64 = 1e-3;
 const THICKNESS: f64 = 0.5e-3;
@@ -102,7 +100,8 @@ fn pressure_follows_the_normal() {
     let number = shell.add_pressure(&body.all(), &body.area, 0.0).expect("one area each");
     let turn = glam::DMat3::from_rotation_x(1.0);
     for i in 0..shell.state.len() {
-        shell.state.displacement[i] = turn * shell.state.reference_position[i] - shell.state.reference_position[i];
+        shell.state.displacement[i] =
+            turn * shell.state.reference_position[i] - shell.state.reference_position[i];
         shell.state.director[i] = turn * shell.state.reference_director[i];
     }
     shell.set_pressure(number, 100.0);
@@ -196,9 +195,8 @@ fn precisions_and_instruction_sets_agree() {
     let reference = moved::<f64>(Isa::scalar());
     let scale = reference.iter().map(|v| v.length()).fold(0.0, f64::max);
     for isa in Isa::available() {
-        let apart = |v: Vec<DVec3>| {
-            v.iter().zip(&reference).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / scale
-        };
+        let apart =
+            |v: Vec<DVec3>| v.iter().zip(&reference).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / scale;
         let (double, mixed) = (apart(moved::<f64>(isa)), apart(moved::<f32>(isa)));
         assert!(double < 1e-9 && mixed < 1e-4, "{}: {double:e} {mixed:e}", isa.name());
     }

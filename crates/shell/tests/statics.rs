@@ -111,7 +111,8 @@ fn pinched(around: usize) -> f64 {
         (patch, axis)
     });
     let u = small_displacements(&mut shell, &forces, 1e-5);
-    let inwards = patches.iter().flat_map(|(patch, axis)| patch.iter().map(|&(i, share)| -share * u[i].dot(*axis)));
+    let inwards =
+        patches.iter().flat_map(|(patch, axis)| patch.iter().map(|&(i, share)| -share * u[i].dot(*axis)));
     let ratio = 0.5 * inwards.sum::<f64>() / 1.8248e-5;
     println!("cylinder of {around} x {along}: {ratio:.4}");
     ratio

@@ -30,7 +30,9 @@ fn the_step_is_safe_and_not_much_smaller_than_it_could_be() {
             [(0.0, Model::Resultant), (0.15, Model::Resultant), (0.15, Model::NeoHookean { points: 3 })]
         {
             let [taken, expected] = limit(ratio, jitter, model);
-            println!("t/dp {ratio}, jitter {jitter}: limit by step taken {taken:.3}, by step expected {expected:.3}");
+            println!(
+                "t/dp {ratio}, jitter {jitter}: limit by step taken {taken:.3}, by step expected {expected:.3}"
+            );
             assert!((1.0..1.06).contains(&taken), "{taken}");
             assert!(jitter > 0.0 || (0.9..1.25).contains(&expected), "{expected}");
         }

@@ -18,7 +18,14 @@ fn radius() -> f64 {
 }
 
 /// A tube under the pressure `strain E' t / R`, with clamped ends or, in plane strain, as a piece of a long one.
-fn pressed(thickness: f64, model: Model, jitter: f64, strain: f64, damping: f64, clamped: bool) -> Shell<f64> {
+fn pressed(
+    thickness: f64,
+    model: Model,
+    jitter: f64,
+    strain: f64,
+    damping: f64,
+    clamped: bool,
+) -> Shell<f64> {
     let body = tube((radius(), ALONG as f64 * SPACING, thickness), AROUND, ALONG, jitter);
     let material = Material::new(YOUNG, POISSON, model).expect("in range");
     let numbers = Numbers { damping, ..Numbers::new(1100.0, SPACING) };
@@ -107,4 +114,3 @@ fn tubes_of_any_thickness_are_stable() {
         assert!(energies.kinetic < 0.05 * energies.strain(), "{energies:?}");
     }
 }
-

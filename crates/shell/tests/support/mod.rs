@@ -118,12 +118,7 @@ pub(crate) fn cylinder(
 }
 
 /// A whole tube around the z axis of `around` by `along` particles.
-pub(crate) fn tube(
-    size: (f64, f64, f64),
-    around: usize,
-    along: usize,
-    jitter: f64,
-) -> Body {
+pub(crate) fn tube(size: (f64, f64, f64), around: usize, along: usize, jitter: f64) -> Body {
     cylinder(size, (0.0, TAU), (Rows::Inside(around), Rows::Inside(along)), jitter)
 }
 
