@@ -135,6 +135,17 @@ impl<R: Real> Shell<R> {
         &self.numbers
     }
 
+    /// Changes the damping, for a start that comes to rest quickly; a shell without damping keeps none.
+    ///
+    /// # Errors
+    /// [`ShellError::OutOfRange`] outside of 0 to 1.
+    pub fn set_damping(&mut self, damping: f64) -> Result<(), ShellError> {
+        let numbers = Numbers { damping, ..self.numbers };
+        numbers.check()?;
+        self.numbers = numbers;
+        Ok(())
+    }
+
     /// The material of the shell.
     pub fn material(&self) -> &Material {
         &self.forces.material
