@@ -31,6 +31,11 @@ validate-long:
 validate-solids:
     cargo test --release -p vaso-solid --tests -- --ignored --nocapture
 
+# Shells alone: roofs, cylinders, hemispheres, energy over long times, relaxed tubes; five minutes on two cores.
+validate-shells:
+    cargo test --release -p vaso-shell --tests -- --include-ignored --nocapture
+    cargo test -p vaso-tests --test shells -- --include-ignored --nocapture
+
 # Micro-benchmarks.
 bench:
     cargo bench -p vaso-benches

@@ -17,6 +17,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("scene", &["units"]),
     ("generation", &["geometry", "kernels", "particles"]),
     ("fluid", &["kernels", "particles"]),
+    ("shell", &["kernels", "particles"]),
     ("solid", &["kernels", "particles"]),
     ("metrics", &["geometry", "kernels", "particles"]),
     ("io", &["particles"]),

@@ -1,0 +1,159 @@
+//! Loads and springs: what acts on a shell from outside.
+
+use crate::forces::{Forces, across};
+use crate::state::ShellState;
+use glam::DVec3;
+use rayon::prelude::*;
+use vaso_kernels::Real;
+
+/// Pressure on particles, which follows their area.
+pub(crate) struct Pressure {
+    /// Places of the particles in the state.
+    pub(crate) at: Vec<u32>,
+    /// Loaded areas in the reference configuration \[m^2\].
+    pub(crate) area: Vec<f64>,
+    /// Pressure \[Pa\], towards the side of the director.
+    pub(crate) value: f64,
+}
+
+/// Spring and dashpot between one particle and what surrounds the vessel.
+pub(crate) struct Tissue {
+    /// Place in the state.
+    pub(crate) at: u32,
+    /// Stiffness \[N/m\].
+    pub(crate) stiffness: f64,
+    /// Damping \[N s/m\].
+    pub(crate) damping: f64,
+}
+
+/// Particle that answers the fluid implicitly.
+pub(crate) struct Impedance {
+    /// Place in the state.
+    pub(crate) at: u32,
+    /// Share of the impedance times area that is taken implicitly \[N s/m\].
+    pub(crate) coefficient: f64,
+    /// Velocity at the start of the step of the fluid \[m/s\].
+    pub(crate) start: DVec3,
+}
+
+/// All loads of a shell.
+#[derive(Default)]
+pub(crate) struct Loads {
+    /// Acceleration of all particles \[m/s^2\].
+    pub(crate) gravity: DVec3,
+    /// Force of the fluid \[N\], empty before there is one.
+    pub(crate) fluid: Vec<DVec3>,
+    /// Dead forces \[N\] on places in the state.
+    pub(crate) forces: Vec<(u32, DVec3)>,
+    /// Dead moments \[N m\] on places in the state.
+    pub(crate) moments: Vec<(u32, DVec3)>,
+    pub(crate) pressures: Vec<Pressure>,
+    pub(crate) tissue: Vec<Tissue>,
+    pub(crate) impedance: Vec<Impedance>,
+    /// Acceleration by all of them \[m/s^2\], empty where there are none.
+    pub(crate) acceleration: Vec<DVec3>,
+    /// Acceleration of the directors by moments \[1/s^2\], empty where there are none.
+    pub(crate) turning: Vec<DVec3>,
+}
+
+impl Loads {
+    /// Whether the loads change while the shell moves.
+    pub(crate) fn follow(&self) -> bool {
+        !self.pressures.is_empty() || !self.tissue.is_empty() || !self.moments.is_empty()
+    }
+
+    fn act(&self) -> bool {
+        self.follow() || !self.fluid.is_empty() || !self.forces.is_empty() || self.gravity != DVec3::ZERO
+    }
+
+    /// Computes the accelerations where the shell is now.
+    pub(crate) fn update<R: Real>(&mut self, state: &ShellState, forces: &Forces<R>) {
+        if !self.act() {
+            self.acceleration.clear();
+            self.turning.clear();
+            return;
+        }
+        let (gravity, fluid, mass) = (self.gravity, &self.fluid, &state.mass);
+        self.acceleration.resize(state.len(), DVec3::ZERO);
+        self.acceleration.par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, a)| {
+            *a = gravity + fluid.get(i).map_or(DVec3::ZERO, |force| *force / mass[i]);
+        });
+        for &(i, force) in &self.forces {
+            self.acceleration[i as usize] += force / mass[i as usize];
+        }
+        for pressure in &self.pressures {
+            for (&i, &area) in pressure.at.iter().zip(&pressure.area) {
+                let i = i as usize;
+                self.acceleration[i] += (pressure.value * area / mass[i]) * forces.area_vector(i);
+            }
+        }
+        for tissue in &self.tissue {
+            let i = tissue.at as usize;
+            self.acceleration[i] -= (tissue.stiffness / mass[i]) * state.displacement[i];
+        }
+        self.turning.clear();
+        if !self.moments.is_empty() {
+            self.turning.resize(state.len(), DVec3::ZERO);
+            for &(i, moment) in &self.moments {
+                let i = i as usize;
+                // The power moment . omega is that of moment x n at the rate omega x n of the director.
+                self.turning[i] += moment.cross(state.director[i]) / state.rotary_inertia[i];
+            }
+        }
+    }
+
+    /// Acceleration of particle `i` \[m/s^2\].
+    #[inline(always)]
+    pub(crate) fn on(&self, i: usize) -> DVec3 {
+        self.acceleration.get(i).copied().unwrap_or_default()
+    }
+
+    /// Acceleration of the director of particle `i` \[1/s^2\].
+    #[inline(always)]
+    pub(crate) fn on_director(&self, i: usize) -> DVec3 {
+        self.turning.get(i).copied().unwrap_or_default()
+    }
+
+    /// Lets the dashpots slow the shell over `dt` \[s\], implicitly; returns the energy taken \[J\].
+    pub(crate) fn damp(&self, state: &mut ShellState, dt: f64) -> f64 {
+        let mut taken = 0.0;
+        for tissue in self.tissue.iter().filter(|t| t.damping > 0.0) {
+            let i = tissue.at as usize;
+            let mass = state.mass[i];
+            let before = state.velocity[i];
+            let after = before / (1.0 + dt * tissue.damping / mass);
+            taken += 0.5 * mass * (before.length_squared() - after.length_squared());
+            state.velocity[i] = after;
+        }
+        taken
+    }
+
+    /// Notes the velocities that the fluid has answered with its force.
+    pub(crate) fn note_start(&mut self, state: &ShellState) {
+        for part in &mut self.impedance {
+            part.start = state.velocity[part.at as usize];
+        }
+    }
+
+    /// Draws velocities along the normal to those the fluid has answered, at the end of a sub-step `dt` \[s\].
+    pub(crate) fn resist<R: Real>(&self, state: &mut ShellState, forces: &Forces<R>, dt: f64) {
+        for part in &self.impedance {
+            let i = part.at as usize;
+            let normal = forces.area_vector(i).normalize_or_zero();
+            let weight = dt * part.coefficient / state.mass[i];
+            let lag = normal.dot(part.start - state.velocity[i]);
+            state.velocity[i] += weight / (1.0 + weight) * lag * normal;
+        }
+    }
+
+    /// Largest stiffness over mass of a spring \[1/s^2\].
+    pub(crate) fn largest_rate(&self, state: &ShellState) -> f64 {
+        self.tissue.iter().map(|t| t.stiffness / state.mass[t.at as usize]).fold(0.0, f64::max)
+    }
+}
+
+/// Rate of the director after a support and the constraint on its length have had their say.
+#[inline(always)]
+pub(crate) fn turning(w: DVec3, hold: crate::support::Hold, director: DVec3) -> DVec3 {
+    across(hold.of(w), director)
+}
