@@ -21,6 +21,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("metrics", &["geometry", "kernels", "particles"]),
     ("io", &["particles"]),
     ("boundary", &["fluid", "geometry", "particles"]),
+    ("coupling", &["fluid", "particles", "solid"]),
     ("report", &["io"]),
     (
         "driver",
@@ -34,6 +35,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "fluid",
             "io",
             "boundary",
+            "coupling",
+            "solid",
             "metrics",
             "report",
         ],

@@ -1,0 +1,94 @@
+//! A wall with what lies between it and the fluid, and the stages of a flow that belong to both.
+
+use crate::wall::{CouplingError, MovingWall};
+use glam::DVec3;
+use vaso_fluid::{Fluid, Real};
+use vaso_particles::{WallLoad, WallView};
+
+/// A wall that moves, with the forces of the fluid on it.
+///
+/// An advective step calls [`Self::show`] before the search, [`Self::take_drag`] after the viscosity, and [`Self::step`] in each
+/// acoustic step between the conditions at the openings and the continuity.
+pub struct Coupling<W> {
+    /// The wall.
+    pub wall: W,
+    /// Sub-steps the wall has taken.
+    pub substeps: u64,
+    /// Acoustic steps it has been taken along for.
+    pub steps: u64,
+    pressure_force: Vec<DVec3>,
+    viscous_force: Vec<DVec3>,
+    /// Velocity at the start of the advective step, then mean acceleration over it.
+    start: Vec<DVec3>,
+    elapsed: f64,
+}
+
+impl<W: MovingWall> Coupling<W> {
+    /// Lets the wall of `fluid` move, as `wall` does; it has to be where it was when the distance of the fluid was measured.
+    pub fn new<R: Real>(wall: W, fluid: &mut Fluid<R>) -> Self {
+        let view = wall.view();
+        fluid.release_wall(&view);
+        let n = view.position.len();
+        let zero = || vec![DVec3::ZERO; n];
+        Self {
+            pressure_force: zero(),
+            viscous_force: zero(),
+            start: view.velocity.to_vec(),
+            elapsed: 0.0,
+            substeps: 0,
+            steps: 0,
+            wall,
+        }
+    }
+
+    /// Shows the fluid where the wall is, before the search of an advective step.
+    ///
+    /// The pressure behind the lumen surface wants the acceleration. That of an acoustic step rings with the waves in the wall, so
+    /// the mean over the last advective step is taken; being late, it damps what is slower than that.
+    pub fn show<R: Real>(&mut self, fluid: &mut Fluid<R>) {
+        let view = self.wall.view();
+        let per_time = if self.elapsed > 0.0 { 1.0 / self.elapsed } else { 0.0 };
+        for (start, v) in self.start.iter_mut().zip(view.velocity) {
+            *start = per_time * (*v - *start);
+        }
+        fluid.take_wall(&view, &self.start);
+        self.start.copy_from_slice(view.velocity);
+        self.elapsed = 0.0;
+    }
+
+    /// Takes the viscous force, which holds for the advective step; after the viscosity of the fluid.
+    pub fn take_drag<R: Real>(&mut self, fluid: &mut Fluid<R>) {
+        fluid.viscous_force_on_wall(&mut self.viscous_force);
+    }
+
+    /// Takes the pressure of the kick, moves the wall by `dt` \[s\] under it, and shows the fluid its new velocity.
+    ///
+    /// # Errors
+    /// When the wall breaks down.
+    pub fn step<R: Real>(&mut self, fluid: &mut Fluid<R>, dt: f64) -> Result<(), CouplingError> {
+        fluid.pressure_on_wall(&mut self.pressure_force);
+        let load = WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force };
+        self.wall.load(&load)?;
+        self.substeps += self.wall.advance(dt)? as u64;
+        self.steps += 1;
+        self.elapsed += dt;
+        fluid.set_wall_velocity(self.wall.view().velocity, dt);
+        Ok(())
+    }
+
+    /// Forces of the fluid on the particles of the wall \[N\] in the last step: by pressure, and by viscosity.
+    pub fn load(&self) -> WallLoad<'_> {
+        WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force }
+    }
+
+    /// Particles of the wall.
+    pub fn view(&self) -> WallView<'_> {
+        self.wall.view()
+    }
+
+    /// Bytes held beside the wall itself.
+    pub fn bytes(&self) -> usize {
+        let vectors = self.pressure_force.capacity() + self.viscous_force.capacity() + self.start.capacity();
+        size_of::<DVec3>() * vectors
+    }
+}
