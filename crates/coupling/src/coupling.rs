@@ -7,8 +7,9 @@ use vaso_particles::{WallLoad, WallView};
 
 /// A wall that moves, with the forces of the fluid on it.
 ///
-/// An advective step calls [`Self::show`] before the search, [`Self::take_drag`] after the viscosity, and [`Self::step`] in each
-/// acoustic step between the conditions at the openings and the continuity.
+/// An advective step calls [`Self::show`] before the search and [`Self::take_drag`] after the viscosity; each acoustic step
+/// [`Self::take_pressure`], [`Self::advance`] and [`Self::show_velocity`] between the conditions at the openings and the
+/// continuity.
 pub struct Coupling<W> {
     /// The wall.
     pub wall: W,
@@ -61,19 +62,27 @@ impl<W: MovingWall> Coupling<W> {
         fluid.viscous_force_on_wall(&mut self.viscous_force);
     }
 
-    /// Takes the pressure of the kick, moves the wall by `dt` \[s\] under it, and shows the fluid its new velocity.
+    /// Takes the pressure of the kick.
+    pub fn take_pressure<R: Real>(&mut self, fluid: &mut Fluid<R>) {
+        fluid.pressure_on_wall(&mut self.pressure_force);
+    }
+
+    /// Moves the wall by an acoustic step `dt` \[s\] under what has been taken.
     ///
     /// # Errors
     /// When the wall breaks down.
-    pub fn step<R: Real>(&mut self, fluid: &mut Fluid<R>, dt: f64) -> Result<(), CouplingError> {
-        fluid.pressure_on_wall(&mut self.pressure_force);
+    pub fn advance(&mut self, dt: f64) -> Result<(), CouplingError> {
         let load = WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force };
         self.wall.load(&load)?;
         self.substeps += self.wall.advance(dt)? as u64;
         self.steps += 1;
         self.elapsed += dt;
-        fluid.set_wall_velocity(self.wall.view().velocity, dt);
         Ok(())
+    }
+
+    /// Shows the fluid the velocity of the wall at the end of an acoustic step `dt` \[s\].
+    pub fn show_velocity<R: Real>(&self, fluid: &mut Fluid<R>, dt: f64) {
+        fluid.set_wall_velocity(self.wall.view().velocity, dt);
     }
 
     /// Forces of the fluid on the particles of the wall \[N\] in the last step: by pressure, and by viscosity.
