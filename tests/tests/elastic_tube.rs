@@ -64,10 +64,31 @@ fn a_tube_under_pressure_widens_as_lame_says() {
                     .filter(|&i| (state.position[i].z - 0.5 * pipe.length).abs() < 0.1 * pipe.length)
                     .collect();
                 let p = middle.iter().map(|&i| state.pressure[i]).sum::<f64>() / middle.len() as f64;
+                let coupling = flow.wall.as_ref().expect("it is there");
+                let (solid, load) = (&coupling.wall, coupling.load());
+                let (mut work, mut total) = (0.0, 0.0);
+                for i in 0..solid.state.len() {
+                    let x = solid.state.position(i);
+                    let r = x.x.hypot(x.y);
+                    if (x.z - 0.5 * pipe.length).abs() < 0.1 * pipe.length {
+                        let f = load.pressure_force[i];
+                        let radial = (f.x * x.x + f.y * x.y) / r;
+                        total += radial;
+                        work += radial * pipe.radius() / r;
+                    }
+                }
+                let exact = std::f64::consts::TAU * pipe.radius() * 0.2 * pipe.length;
+                println!("load total {:.4}, virtual work {:.4} of p", total / exact / p, work / exact / p);
                 let e = flow.wall.as_mut().expect("it is there").wall.energies();
                 println!(
                     "{:.4} s: u/u_Lame {ratio:.4}, p/p_0 {:.4}, kinetic {:.2e} strain {:.2e} balance {:.2e}, steps {} {}",
-                    flow.time, p / pressure, e.kinetic, e.strain, e.balance(), flow.acoustic_steps, flow.advective_steps
+                    flow.time,
+                    p / pressure,
+                    e.kinetic,
+                    e.strain,
+                    e.balance(),
+                    flow.acoustic_steps,
+                    flow.advective_steps
                 );
             }
         }

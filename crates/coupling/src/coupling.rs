@@ -17,11 +17,15 @@ pub struct Coupling<W> {
     pub substeps: u64,
     /// Acoustic steps it has been taken along for.
     pub steps: u64,
+    /// Work that the fluid has done on it \[J\].
+    pub work: f64,
     pressure_force: Vec<DVec3>,
     viscous_force: Vec<DVec3>,
     /// Velocity at the start of the advective step, then mean acceleration over it.
     start: Vec<DVec3>,
     elapsed: f64,
+    /// Velocity before an acoustic step \[m/s\].
+    before: Vec<DVec3>,
 }
 
 impl<W: MovingWall> Coupling<W> {
@@ -38,6 +42,8 @@ impl<W: MovingWall> Coupling<W> {
             elapsed: 0.0,
             substeps: 0,
             steps: 0,
+            work: 0.0,
+            before: Vec::new(),
             wall,
         }
     }
@@ -74,9 +80,15 @@ impl<W: MovingWall> Coupling<W> {
     pub fn advance(&mut self, dt: f64) -> Result<(), CouplingError> {
         let load = WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force };
         self.wall.load(&load)?;
+        self.before.clear();
+        self.before.extend_from_slice(self.wall.view().velocity);
         self.substeps += self.wall.advance(dt)? as u64;
         self.steps += 1;
         self.elapsed += dt;
+        // Forces are constant over the step, velocities about linear.
+        let velocity = self.before.iter().zip(self.wall.view().velocity).map(|(old, new)| *old + *new);
+        let forces = self.pressure_force.iter().zip(&self.viscous_force).map(|(p, v)| *p + *v);
+        self.work += 0.5 * dt * velocity.zip(forces).map(|(v, force)| v.dot(force)).sum::<f64>();
         Ok(())
     }
 
@@ -97,7 +109,10 @@ impl<W: MovingWall> Coupling<W> {
 
     /// Bytes held beside the wall itself.
     pub fn bytes(&self) -> usize {
-        let vectors = self.pressure_force.capacity() + self.viscous_force.capacity() + self.start.capacity();
+        let vectors = self.pressure_force.capacity()
+            + self.viscous_force.capacity()
+            + self.start.capacity()
+            + self.before.capacity();
         size_of::<DVec3>() * vectors
     }
 }
