@@ -22,6 +22,8 @@ struct Squeezed {
     driven: f64,
     /// The same by the particles that crossed the caps \[m^3\].
     crossed: f64,
+    /// Volume of one layer of particles on a cap \[m^3\].
+    layer: f64,
     max_density_error: f64,
     escaped: u64,
     returned: u64,
@@ -74,6 +76,7 @@ fn run(across: f64, strain: f64, time: f64, end: f64) -> Squeezed {
         swept,
         driven,
         crossed,
+        layer: area * pipe.spacing(),
         max_density_error: flow.watch.max_density_error,
         escaped: flow.watch.escaped,
         returned: flow.watch.returned,
@@ -81,15 +84,16 @@ fn run(across: f64, strain: f64, time: f64, end: f64) -> Squeezed {
     }
 }
 
+/// Spacings of a support over those of the radius at D/10.
+const REACH: f64 = 2.6 / 5.0;
+
 #[test]
 fn what_the_wall_sweeps_is_driven_out() {
-    for (across, strain, time, end) in
-        [(10.0, 0.1, 0.1, 0.15), (10.0, 0.1, 0.02, 0.05), (10.0, -0.1, 0.1, 0.15), (10.0, 0.3, 0.1, 0.15)]
-    {
-        let s = run(across, strain, time, end);
+    for (strain, time, end) in [(0.1, 0.1, 0.15), (-0.1, 0.1, 0.15), (0.3, 0.1, 0.15)] {
+        let s = run(10.0, strain, time, end);
         println!(
-            "D/{across} strain {strain} in {time} s: driven {:.4}, crossed {:.4} of the swept; middle filled {:.4}; \
-             density {:.4}; escaped {}, returned {}",
+            "strain {strain} in {time} s: driven {:.4} of the swept, crossed {:.4}; middle filled {:.4}; density {:.4}; escaped {}, \
+             returned {}",
             s.driven / s.swept,
             s.crossed / s.swept,
             s.middle,
@@ -97,5 +101,12 @@ fn what_the_wall_sweeps_is_driven_out() {
             s.escaped,
             s.returned
         );
+        // The continuity of a concave wall is short by this share (docs/theory/coupling.md); the density blend takes most back.
+        assert!((s.driven / s.swept - 1.0).abs() < 0.104 * REACH, "{}", s.driven / s.swept);
+        // A particle more or less in each of the layers that the bounds of the middle cut through: 2 of 40 layers, half filled.
+        assert!((s.middle - 1.0).abs() < 0.025, "{}", s.middle);
+        // A layer a cap is what the count of crossings is good for.
+        assert!((s.crossed - s.swept).abs() < 2.0 * s.layer, "{} {}", s.crossed, s.swept);
+        assert_eq!(s.escaped, 0);
     }
 }

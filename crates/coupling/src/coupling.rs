@@ -21,12 +21,16 @@ pub struct Coupling<W> {
     pub work: f64,
     pressure_force: Vec<DVec3>,
     viscous_force: Vec<DVec3>,
-    /// Velocity at the start of the advective step, then mean acceleration over it.
-    start: Vec<DVec3>,
-    elapsed: f64,
+    /// Acceleration \[m/s^2\], without what rings.
+    acceleration: Vec<DVec3>,
     /// Velocity before an acoustic step \[m/s\].
     before: Vec<DVec3>,
 }
+
+/// Time of the filter of the acceleration, in acoustic steps. The pressure behind the lumen surface answers the acceleration, and
+/// acts back on it one step later: unfiltered that rings. A filter of first order is passive at every frequency, which the mean over
+/// an advective step is not.
+const FILTER: f64 = 3.0;
 
 impl<W: MovingWall> Coupling<W> {
     /// Lets the wall of `fluid` move, as `wall` does; it has to be where it was when the distance of the fluid was measured.
@@ -38,8 +42,7 @@ impl<W: MovingWall> Coupling<W> {
         Self {
             pressure_force: zero(),
             viscous_force: zero(),
-            start: view.velocity.to_vec(),
-            elapsed: 0.0,
+            acceleration: zero(),
             substeps: 0,
             steps: 0,
             work: 0.0,
@@ -49,18 +52,8 @@ impl<W: MovingWall> Coupling<W> {
     }
 
     /// Shows the fluid where the wall is, before the search of an advective step.
-    ///
-    /// The pressure behind the lumen surface wants the acceleration. That of an acoustic step rings with the waves in the wall, so
-    /// the mean over the last advective step is taken; being late, it damps what is slower than that.
     pub fn show<R: Real>(&mut self, fluid: &mut Fluid<R>) {
-        let view = self.wall.view();
-        let per_time = if self.elapsed > 0.0 { 1.0 / self.elapsed } else { 0.0 };
-        for (start, v) in self.start.iter_mut().zip(view.velocity) {
-            *start = per_time * (*v - *start);
-        }
-        fluid.take_wall(&view, &self.start);
-        self.start.copy_from_slice(view.velocity);
-        self.elapsed = 0.0;
+        fluid.take_wall(&self.wall.view(), &self.acceleration);
     }
 
     /// Takes the viscous force, which holds for the advective step; after the viscosity of the fluid.
@@ -84,17 +77,21 @@ impl<W: MovingWall> Coupling<W> {
         self.before.extend_from_slice(self.wall.view().velocity);
         self.substeps += self.wall.advance(dt)? as u64;
         self.steps += 1;
-        self.elapsed += dt;
         // Forces are constant over the step, velocities about linear.
         let velocity = self.before.iter().zip(self.wall.view().velocity).map(|(old, new)| *old + *new);
         let forces = self.pressure_force.iter().zip(&self.viscous_force).map(|(p, v)| *p + *v);
+        let share = 1.0 / (1.0 + FILTER);
+        let velocities = self.before.iter().zip(self.wall.view().velocity);
+        for (a, (old, new)) in self.acceleration.iter_mut().zip(velocities) {
+            *a += share * ((*new - *old) / dt - *a);
+        }
         self.work += 0.5 * dt * velocity.zip(forces).map(|(v, force)| v.dot(force)).sum::<f64>();
         Ok(())
     }
 
     /// Shows the fluid the velocity of the wall at the end of an acoustic step `dt` \[s\].
     pub fn show_velocity<R: Real>(&self, fluid: &mut Fluid<R>, dt: f64) {
-        fluid.set_wall_velocity(self.wall.view().velocity, dt);
+        fluid.set_wall_velocity(self.wall.view().velocity, &self.acceleration, dt);
     }
 
     /// Forces of the fluid on the particles of the wall \[N\] in the last step: by pressure, and by viscosity.
@@ -111,7 +108,7 @@ impl<W: MovingWall> Coupling<W> {
     pub fn bytes(&self) -> usize {
         let vectors = self.pressure_force.capacity()
             + self.viscous_force.capacity()
-            + self.start.capacity()
+            + self.acceleration.capacity()
             + self.before.capacity();
         size_of::<DVec3>() * vectors
     }

@@ -63,6 +63,16 @@ impl Wall for AtRest {
     }
 }
 
+impl<R> Moving<R> {
+    /// Takes accelerations in the order of the view.
+    fn accelerate(&mut self, acceleration: &[DVec3]) {
+        self.acceleration.clear();
+        if !acceleration.is_empty() {
+            self.acceleration.extend(self.source.iter().map(|&a| acceleration[a as usize]));
+        }
+    }
+}
+
 impl<R: Real> Wall for Moving<R> {
     #[inline(always)]
     fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3 {
@@ -114,8 +124,6 @@ impl<R: Real> Fluid<R> {
     /// Takes the wall anew before [`Self::search`]: positions, velocities and, in the same order, accelerations \[m/s^2\]. The
     /// latter may be empty, for a wall that is not accelerated.
     ///
-    /// Accelerations had better be means over an advective step: those of single acoustic steps ring.
-    ///
     /// # Panics
     /// Without [`Self::release_wall`] before it, or if lists differ in length.
     pub fn take_wall(&mut self, view: &WallView, acceleration: &[DVec3]) {
@@ -124,7 +132,7 @@ impl<R: Real> Fluid<R> {
         assert!(acceleration.is_empty() || acceleration.len() == moving.origin.len(), "an entry a particle");
         moving.source = self.wall.arrange(view, &self.frame);
         let support = self.frame.support();
-        let Moving { source, origin, displaced, acceleration: kept, .. } = &mut **moving;
+        let Moving { source, origin, displaced, .. } = &mut **moving;
         displaced.resize(source.len());
         let records = self.wall.kinematic.as_slice();
         displaced.fill(|k| {
@@ -135,15 +143,14 @@ impl<R: Real> Fluid<R> {
             record[7] = R::pack(view.depth[a] / support);
             record
         });
-        kept.clear();
-        if !acceleration.is_empty() {
-            kept.extend(source.iter().map(|&a| acceleration[a as usize]));
-        }
+        moving.accelerate(acceleration);
     }
 
-    /// Gives the wall its velocities \[m/s\] after an acoustic step of `dt` \[s\], in the order of its view.
-    pub fn set_wall_velocity(&mut self, velocity: &[DVec3], dt: f64) {
+    /// Gives the wall its velocities \[m/s\] and accelerations \[m/s^2\] after an acoustic step of `dt` \[s\], in the order of its
+    /// view. As for [`Self::take_wall`] there may be no accelerations.
+    pub fn set_wall_velocity(&mut self, velocity: &[DVec3], acceleration: &[DVec3], dt: f64) {
         let Some(moving) = &mut self.moving else { return };
+        moving.accelerate(acceleration);
         let source = &moving.source;
         self.wall.dynamic.as_mut_slice().par_iter_mut().zip(source).with_min_len(1024).for_each(
             |(record, &a)| {
