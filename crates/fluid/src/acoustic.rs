@@ -215,7 +215,8 @@ impl<R: Real> Fluid<R> {
                     let i = c * CHUNK + k;
                     let v = velocity[i];
                     let rho = numbers.rest_density + density_change[k];
-                    let convergence = along.convergence(i, v, &frozen[k]) - gradient * sums[k][0];
+                    let to_wall = along.convergence(i, v, &frozen[k]);
+                    let convergence = to_wall - gradient * sums[k][0] - frozen[k].false_convergence;
                     rate[k] += rho * convergence;
                     density_change[k] += 0.5 * dt * rate[k];
                     if let Some(dt) = dt_next {

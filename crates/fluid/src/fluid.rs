@@ -5,7 +5,7 @@ use crate::moving::Moving;
 use crate::numbers::Numbers;
 use crate::state::FluidState;
 use crate::wall::WallSide;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use vaso_kernels::{
     CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland,
@@ -29,6 +29,10 @@ pub(crate) struct Frozen {
     pub acceleration: DVec3,
     /// Unit normal of the nearest wall, towards the fluid.
     pub wall_normal: DVec3,
+    /// `sum V (x_j - x_i) (x) grad W` over the fluid: the part of the moment matrix that continuity sees.
+    pub fluid_moment: Sym3,
+    /// What continuity takes for compression in a flow that only shears, by uneven neighbours \[1/s\]; zero near caps.
+    pub false_convergence: f64,
     /// `sum V |dW/dr|` over the wall \[1/m\].
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
@@ -58,6 +62,8 @@ impl Default for Frozen {
             support: DVec3::ZERO,
             acceleration: DVec3::ZERO,
             wall_normal: DVec3::ZERO,
+            fluid_moment: Sym3([0.0; 6]),
+            false_convergence: 0.0,
             wall_area: 0.0,
             inverse_distance: 0.0,
             cap_depth: FAR,
@@ -92,8 +98,8 @@ pub struct Fluid<R> {
     pub(crate) second: Records<R>,
     pub(crate) offsets: PairStore<R>,
     pub(crate) frozen: Vec<Frozen>,
-    /// Velocity gradients between the viscous and the offset sweep.
-    pub(crate) strain: Vec<[f64; 6]>,
+    /// Gradients of the components of the velocity, column by column \[1/s\].
+    pub(crate) slope: Vec<DMat3>,
     /// One more than the place in the zone list, zero away from caps.
     pub(crate) zone_of: Vec<u32>,
     pub(crate) lattice_sum: f64,
@@ -132,7 +138,7 @@ impl<R: Real> Fluid<R> {
             second: Records::default(),
             offsets: PairStore::default(),
             frozen: Vec::new(),
-            strain: Vec::new(),
+            slope: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
             elapsed: 0.0,
@@ -168,7 +174,7 @@ impl<R: Real> Fluid<R> {
             + self.offsets.bytes()
             + self.grid.bytes()
             + self.frozen.capacity() * size_of::<Frozen>()
-            + self.strain.capacity() * size_of::<[f64; 6]>()
+            + self.slope.capacity() * size_of::<DMat3>()
             + 4 * (self.zone_of.capacity() + self.order.capacity())
     }
 

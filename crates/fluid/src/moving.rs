@@ -28,7 +28,7 @@ pub(crate) struct Moving<R> {
     /// `sum V v_a . grad W` at each fluid particle, with the other sign \[1/s\].
     flux: Vec<f64>,
     /// Bend of the velocity near the wall \[1/(m s)\], for the viscous force on it.
-    pub(crate) bend: Vec<[f64; 3]>,
+    pub(crate) bend: Vec<DVec3>,
     /// Correction matrices of the fluid, which the pair laws of the wall read.
     pub(crate) correction: Records<R>,
     /// Fluid as the wall sees it: its scalar is what the wall gets from it.
@@ -58,8 +58,9 @@ impl Wall for AtRest {
 
     #[inline(always)]
     fn convergence(&self, _: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        // The mirrored velocity doubles the part of the wall.
-        2.0 * v.dot(frozen.wall_gradient)
+        // The mirrored velocity doubles the part of the wall. Sliding along it compresses nothing.
+        let normal = frozen.wall_normal;
+        2.0 * v.dot(normal) * normal.dot(frozen.wall_gradient)
     }
 }
 
@@ -82,7 +83,10 @@ impl<R: Real> Wall for Moving<R> {
 
     #[inline(always)]
     fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        2.0 * (v.dot(frozen.wall_gradient) + self.flux[i])
+        let (normal, wall) = (frozen.wall_normal, self.velocity[i]);
+        let to_wall = (v - wall).dot(normal) * normal.dot(frozen.wall_gradient);
+        // What the wall does beside its mean velocity here: it is compressed or bends.
+        2.0 * (to_wall + wall.dot(frozen.wall_gradient) + self.flux[i])
     }
 }
 

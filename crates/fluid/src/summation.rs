@@ -71,6 +71,7 @@ impl<R: Real> Fluid<R> {
                     frozen.fluid_gradient = -gradient * DVec3::new(f[1], f[2], f[3]);
                     frozen.wall_gradient = -gradient * DVec3::new(w[1], w[2], w[3]);
                     frozen.wall_area = gradient * w[10];
+                    frozen.fluid_moment = Sym3(std::array::from_fn(|q| gradient * support * f[4 + q]));
                     second[k] = pack_sym(&frozen.correction.0);
                 }
             });

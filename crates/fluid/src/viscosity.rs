@@ -9,7 +9,7 @@ use crate::rheology::shear_rate;
 use crate::summation::pack_sym;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
+use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, sweep};
 
 impl<R: Real> Fluid<R> {
     /// Finds the viscous acceleration, the own-pressure and support sums, and the velocity gradient; needs
@@ -30,7 +30,7 @@ impl<R: Real> Fluid<R> {
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
         let (mu, rho0, rheology) = (self.numbers.viscosity, self.numbers.rest_density, self.numbers.rheology);
-        let density_change = &self.state.density_change;
+        let (density_change, zone_of) = (&self.state.density_change, &self.zone_of);
         let (isa, frame) = (self.isa, &self.frame);
         let (current, second, wall) = (&self.current, &self.second, &self.wall);
         let fluid_gather = Gather {
@@ -49,13 +49,13 @@ impl<R: Real> Fluid<R> {
         };
         (
             self.frozen.par_chunks_mut(CHUNK),
-            self.strain.par_chunks_mut(CHUNK),
+            self.slope.par_chunks_mut(CHUNK),
             self.rows.chunks(),
             wall.fluid_rows.chunks(),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (frozen, strain, row, wall_row))| {
+            .for_each(|(c, (frozen, slopes, row, wall_row))| {
                 let mut fluid = [[0.0; FLUID_SUMS]; CHUNK];
                 let mut walls = [[0.0; WALL_SUMS]; CHUNK];
                 sweep(isa, &FluidViscosity, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
@@ -66,28 +66,36 @@ impl<R: Real> Fluid<R> {
                     let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
                     let rho = rho0 + density_change[c * CHUNK + k];
                     let depths = w[12] * frozen.wall_distance() + w[13];
-                    let [bx, by, bz, ..] = strain[k];
-                    let wall = DVec3::new(w[0], w[1], w[2]) - depths * DVec3::new(bx, by, bz);
-                    let drag = DVec3::new(f[3], f[4], f[5]) + wall;
+                    let bend = slopes[k].x_axis;
+                    let wall = DVec3::new(w[0], w[1], w[2]) - depths * bend;
+                    let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
+                    let slope = velocity_gradient(&raw, frozen);
+                    // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends. Near caps
+                    // it is the drag of the neighbours left that keeps particles together.
+                    let lean = support * DVec3::new(f[15] + w[14], f[16] + w[15], f[17] + w[16]);
+                    let is_inner = zone_of[c * CHUNK + k] == 0;
+                    let wall = if is_inner { wall - slope.transpose() * lean } else { wall };
                     // With a law of the shear rate, what fluid pairs add is found anew once it is known.
                     frozen.acceleration = match rheology {
-                        None => -gradient * mu / (support * rho) * drag,
+                        None => -gradient * mu / (support * rho) * (DVec3::new(f[3], f[4], f[5]) + wall),
                         Some(_) => -gradient / (support * rho) * wall,
                     };
                     let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
                     set_gradient_sums(frozen, neighbours);
-                    let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
-                    strain[k] = scaled_strain(&raw, frozen, 0.5 * support);
+                    slopes[k] = slope;
+                    if is_inner {
+                        frozen.false_convergence = false_convergence(&slope, &frozen.fluid_moment);
+                    }
                 }
             });
     }
 
-    /// Finds how the velocity bends near the wall, the `b` of [`NearWall`] \[1/(m s)\]. It stands in the first three places of the
-    /// strain until that is found.
+    /// Finds how the velocity bends near the wall, the `b` of [`NearWall`] \[1/(m s)\]. It stands in the first column of the
+    /// velocity gradient until that is found.
     fn near_wall(&mut self) {
         let support = self.kernel.support();
-        self.strain.clear();
-        self.strain.resize(self.state.len(), [0.0; 6]);
+        self.slope.clear();
+        self.slope.resize(self.state.len(), DMat3::ZERO);
         let frozen = &self.frozen;
         self.current
             .as_mut_slice()
@@ -99,7 +107,7 @@ impl<R: Real> Fluid<R> {
         let of_wall = self.moving.as_ref().map(|m| m.velocity.as_slice());
         let gather =
             Gather { frame: &self.frame, own: current, other: current, own_second: None, other_second: None };
-        (self.strain.par_chunks_mut(CHUNK), self.rows.chunks(), self.wall.fluid_rows.chunks())
+        (self.slope.par_chunks_mut(CHUNK), self.rows.chunks(), self.wall.fluid_rows.chunks())
             .into_par_iter()
             .enumerate()
             .filter(|(_, (_, _, wall_row))| !wall_row.has_no_pairs())
@@ -113,7 +121,7 @@ impl<R: Real> Fluid<R> {
                     near_wall::add_own(&mut sums[k], s, volume, velocity[i].to_array());
                     let wall = of_wall.map_or([0.0; 3], |v| v[i].to_array());
                     let b = near_wall::curvature(&sums[k], wall);
-                    bend[k][..3].copy_from_slice(&b.map(|b| b / (support * support)));
+                    bend[k].x_axis = DVec3::from_array(b) / (support * support);
                 }
             });
     }
@@ -121,8 +129,8 @@ impl<R: Real> Fluid<R> {
     /// Finds the velocity offsets of all pairs from the velocity gradient of [`Self::viscosity`].
     pub fn offsets(&mut self) {
         let isa = self.isa;
-        let strain = &self.strain;
-        self.second.fill(|i| pack_sym(&strain[i]));
+        let (slope, half) = (&self.slope, 0.5 * self.kernel.support());
+        self.second.fill(|i| pack_sym(&scaled_strain(&slope[i], half)));
         self.offsets.resize_for(self.rows.chunks());
         let gather = Gather {
             frame: &self.frame,
@@ -146,16 +154,15 @@ impl<R: Real> Fluid<R> {
         let Some(rheology) = self.numbers.rheology else { return };
         let support = self.kernel.support();
         let (gradient, rho0) = (self.kernel.gradient_scale(), self.numbers.rest_density);
-        // The strain is kept in units of half a support.
-        let per_scale = 2.0 / support;
-        self.current.as_mut_slice().par_iter_mut().zip(&self.strain).with_min_len(1024).for_each(
-            |(record, strain)| {
-                let eta = rheology.viscosity(per_scale * shear_rate(strain));
+        let viscosity = |slope: &DMat3| rheology.viscosity(shear_rate(&scaled_strain(slope, 1.0)));
+        self.current.as_mut_slice().par_iter_mut().zip(&self.slope).with_min_len(1024).for_each(
+            |(record, slope)| {
+                let eta = viscosity(slope);
                 record[7] = R::pack(1.0 / eta);
             },
         );
         let density_change = &self.state.density_change;
-        let (isa, current, strain) = (self.isa, &self.current, &self.strain);
+        let (isa, current, slope) = (self.isa, &self.current, &self.slope);
         let gather = Gather {
             frame: &self.frame,
             own: current,
@@ -169,7 +176,7 @@ impl<R: Real> Fluid<R> {
                 sweep(isa, &ThinningViscosity, &gather, numbered(row, c), Store::None, &mut sums);
                 for (k, frozen) in frozen.iter_mut().enumerate() {
                     let i = c * CHUNK + k;
-                    let eta = rheology.viscosity(per_scale * shear_rate(&strain[i]));
+                    let eta = viscosity(&slope[i]);
                     let rho = rho0 + density_change[i];
                     let drag = -gradient / (support * rho) * DVec3::from_array(sums[k]);
                     frozen.acceleration = eta * frozen.acceleration + drag;
@@ -186,10 +193,24 @@ fn set_gradient_sums(frozen: &mut Frozen, neighbours: DVec3) {
     frozen.support = frozen.own_pressure + b.mul(frozen.fluid_gradient + frozen.wall_gradient);
 }
 
-/// Symmetric part of the corrected velocity gradient, times `scale`; `raw` is `sum V (v_j - v_i) (x) grad W`.
-fn scaled_strain(raw: &[f64; 9], frozen: &Frozen, scale: f64) -> [f64; 6] {
+/// Corrected velocity gradient \[1/s\], column by column those of the components; `raw` is `sum V (v_j - v_i) (x) grad W`.
+fn velocity_gradient(raw: &[f64; 9], frozen: &Frozen) -> DMat3 {
     let row = |r: usize| frozen.correction.mul(DVec3::new(raw[3 * r], raw[3 * r + 1], raw[3 * r + 2]));
-    let g = DMat3::from_cols(row(0), row(1), row(2));
+    DMat3::from_cols(row(0), row(1), row(2))
+}
+
+/// Symmetric part of a velocity gradient, times `scale`.
+pub(crate) fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
     let sym = |a: usize, b: usize| 0.5 * scale * (g.col(a)[b] + g.col(b)[a]);
     [sym(0, 0), sym(1, 1), sym(2, 2), sym(0, 1), sym(0, 2), sym(1, 2)]
+}
+
+/// Convergence \[1/s\] that the uncorrected sum over fluid neighbours of moment `m` finds in the part of a velocity gradient that changes
+/// no volume.
+fn false_convergence(g: &DMat3, Sym3(m): &Sym3) -> f64 {
+    let d = scaled_strain(g, 1.0);
+    let third = (d[0] + d[1] + d[2]) / 3.0;
+    let normal: f64 = (0..3).map(|q| (d[q] - third) * m[q]).sum();
+    let shear: f64 = (3..6).map(|q| d[q] * m[q]).sum();
+    -(normal + 2.0 * shear)
 }

@@ -1,19 +1,20 @@
 //! Forces on a wall that moves: those on the fluid, pair by pair, with the other sign.
 
 use crate::fluid::{Fluid, numbered};
-use crate::law::moving::{BendOnWall, DragOnWall, PressureOnWall};
+use crate::law::moving::{BendOnWall, DragOnWall, LeanOnWall, PressureOnWall};
 use crate::moving::{Moving, closing_pressure};
 use crate::rheology::shear_rate;
+use crate::viscosity::scaled_strain;
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, PairLaw, Real, Records, Store, sweep};
 
 impl<R: Real> Fluid<R> {
-    /// Keeps what the forces on the wall need from the viscous sweep; `bend` stands in the strain until that is found.
+    /// Keeps what the forces on the wall need from the viscous sweep; `bend` stands in the velocity gradient until that is found.
     pub(crate) fn note_for_wall(&mut self) {
         let Some(moving) = &mut self.moving else { return };
         moving.bend.clear();
-        moving.bend.extend(self.strain.iter().map(|s| [s[0], s[1], s[2]]));
+        moving.bend.extend(self.slope.iter().map(|s| s.x_axis));
         moving.correction.resize(self.state.len());
         let second = self.second.as_slice();
         moving.correction.fill(|i| second[i]);
@@ -53,15 +54,14 @@ impl<R: Real> Fluid<R> {
         let Some(mut moving) = self.moving.take() else { return };
         let support = self.kernel.support();
         let (state, frozen, current) = (&self.state, &self.frozen, self.current.as_slice());
-        let (numbers, strain) = (&self.numbers, &self.strain);
+        let (numbers, slope, zone_of) = (&self.numbers, &self.slope, &self.zone_of);
         let viscous_volume = |i: usize| {
-            // The strain is kept in units of half a support.
             let mu = numbers
                 .rheology
-                .map_or(numbers.viscosity, |law| law.viscosity(2.0 / support * shear_rate(&strain[i])));
+                .map_or(numbers.viscosity, |law| law.viscosity(shear_rate(&scaled_strain(&slope[i], 1.0))));
             mu * state.mass[i] / (numbers.rest_density + state.density_change[i])
         };
-        let bend = &moving.bend;
+        let own = &self.wall.kinematic;
         moving.seen.resize(state.len());
         moving.seen.fill(|i| {
             let mut record = current[i];
@@ -69,18 +69,22 @@ impl<R: Real> Fluid<R> {
             record[7] = R::pack(frozen[i].inverse_distance);
             record
         });
-        let straight = self.gather_on_wall(&DragOnWall, &self.wall.kinematic, &moving);
-        moving.seen.as_mut_slice().par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, record)| {
-            let [x, y, z] = bend[i];
-            (record[4], record[5], record[6]) = (R::pack(x), R::pack(y), R::pack(z));
-            record[7] = R::pack(frozen[i].wall_distance());
-        });
-        let bent = self.gather_on_wall(&BendOnWall, &self.wall.kinematic, &moving);
+        let mut drag = self.gather_on_wall(&DragOnWall, own, &moving);
+        let bend = &moving.bend;
+        show(&mut moving.seen, |i| (bend[i], frozen[i].wall_distance()));
+        let bent = self.gather_on_wall(&BendOnWall, own, &moving);
+        drag.iter_mut().zip(&bent).for_each(|(drag, bent)| *drag -= *bent);
+        for axis in 0..3 {
+            // Near caps what a linear velocity adds is left in, see `viscosity`.
+            let column = |i: usize| if zone_of[i] == 0 { slope[i].col(axis) } else { DVec3::ZERO };
+            show(&mut moving.seen, |i| (column(i), 0.0));
+            let lean = self.gather_on_wall(&LeanOnWall, own, &moving);
+            drag.iter_mut().zip(&lean).for_each(|(drag, lean)| drag[axis] += support * lean.x);
+        }
         let scale = self.kernel.gradient_scale() / support;
         force.fill(DVec3::ZERO);
-        for (k, &a) in moving.source.iter().enumerate() {
-            let volume = self.wall.kinematic.as_slice()[k][3].widen();
-            force[a as usize] = scale * volume * (straight[k] - bent[k]);
+        for ((&a, record), drag) in moving.source.iter().zip(own.as_slice()).zip(&drag) {
+            force[a as usize] = scale * record[3].widen() * *drag;
         }
         self.moving = Some(moving);
     }
@@ -110,4 +114,13 @@ impl<R: Real> Fluid<R> {
             });
         result
     }
+}
+
+/// Lets the wall see other vectors and scalars of the fluid.
+fn show<R: Real>(seen: &mut Records<R>, of: impl Fn(usize) -> (DVec3, f64) + Sync) {
+    seen.as_mut_slice().par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, record)| {
+        let (vector, scalar) = of(i);
+        (record[4], record[5], record[6]) = (R::pack(vector.x), R::pack(vector.y), R::pack(vector.z));
+        record[7] = R::pack(scalar);
+    });
 }

@@ -11,6 +11,7 @@ pub mod measure;
 pub mod nozzle;
 pub mod outlets;
 pub mod page;
+pub mod patients;
 pub mod poiseuille;
 pub mod start_up;
 pub mod thinning;
@@ -150,6 +151,8 @@ pub const CASES: &[Case] = &[
     backflow::CASE,
     thinning::CASE,
     nozzle::CASE,
+    patients::CAROTID,
+    patients::AORTA,
 ];
 
 /// The case of a name.

@@ -10,6 +10,7 @@ pub mod moving;
 pub mod near_wall;
 pub mod offset;
 pub mod pressure;
+pub mod separation;
 pub mod thinning;
 pub mod viscosity;
 pub mod wall_pressure;

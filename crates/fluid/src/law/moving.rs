@@ -156,6 +156,23 @@ impl<R: Real> PairLaw<R, 3> for BendOnWall {
     }
 }
 
+/// What the viscous force takes off for a velocity that changes linearly: the records of the fluid hold the gradient of one
+/// component of the velocity for the velocity. The first sum is of `f grad v . d`, with the `f` of the others; two more stay zero.
+pub struct LeanOnWall;
+
+impl<R: Real> PairLaw<R, 3> for LeanOnWall {
+    type Constants<L: Lanes<Elem = R>> = ();
+    const SECOND: bool = true;
+    const SECOND_OWN: bool = false;
+
+    fn constants<L: Lanes<Elem = R>>(&self) {}
+
+    #[inline(always)]
+    fn pair<L: Lanes<Elem = R>>((): &(), _own: &Own<L>, p: &Pair<L>, sums: &mut [L; 3]) {
+        sums[0] = drag_weight(p).fma(dot(p.velocity, p.d), sums[0]);
+    }
+}
+
 /// `2 V u^3 e.B e`, the weight of the viscous force.
 #[inline(always)]
 fn drag_weight<L: Lanes>(p: &Pair<L>) -> L {

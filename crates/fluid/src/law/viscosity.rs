@@ -4,14 +4,15 @@ use super::{add_outer, add_scaled, dot, gradient_weight, sym_mul};
 use vaso_kernels::{Lanes, Own, Pair, PairLaw, Real};
 
 /// Number of sums between fluid particles.
-pub const FLUID_SUMS: usize = 15;
+pub const FLUID_SUMS: usize = 18;
 /// Number of sums with wall particles.
-pub const WALL_SUMS: usize = 14;
+pub const WALL_SUMS: usize = 17;
 
 /// Fluid pairs; the second record is the correction matrix B.
 ///
-/// Sums `[0..3]` of `V u^3 B_j d`, `[3..6]` of `V u^3 e.(B_i + B_j)e (v_i - v_j)` (Morris, Fox, Zhu
-/// 1997, with the corrected gradient) and `[6..15]` of `V u^3 (v_i - v_j) (x) d`.
+/// Sums `[0..3]` of `V u^3 B_j d`, `[3..6]` of `f (v_i - v_j)` with `f = V u^3 e.(B_i + B_j)e` (Morris, Fox, Zhu
+/// 1997, with the corrected gradient), `[6..15]` of `V u^3 (v_i - v_j) (x) d`, and `[15..18]` of `f d`: what a velocity that
+/// changes linearly adds where neighbours stand unevenly.
 pub struct FluidViscosity;
 
 impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidViscosity {
@@ -33,8 +34,10 @@ impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidViscosity {
         ];
         let gd = [g * p.d[0], g * p.d[1], g * p.d[2]];
         add_scaled(sums, 0, g, b_j);
-        add_scaled(sums, 3, g * factor, dv);
+        let weighted = g * factor;
+        add_scaled(sums, 3, weighted, dv);
         add_outer(sums, 6, dv, gd);
+        add_scaled(sums, 15, weighted, p.d);
     }
 }
 
@@ -43,8 +46,8 @@ impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidViscosity {
 ///
 /// The record's scalar is the depth `d_a` of the wall particle and the inverse distance `1 / d_i`
 /// of the fluid particle; the own second record is the correction matrix. Sums with `f = V u^3 2 e.B_i e`: `[0..3]` of
-/// `f (v_i - v_a)` without the part of `b`, `[3..12]` of `V u^3 (v_i - v_a) (x) d`, also without, and `[12]` of `f d_a` and `[13]` of
-/// `f d_a^2`, which that part needs.
+/// `f (v_i - v_a)` without the part of `b`, `[3..12]` of `V u^3 (v_i - v_a) (x) d`, also without, `[12]` of `f d_a` and `[13]` of
+/// `f d_a^2`, which that part needs, and `[14..17]` of `f d`.
 pub struct WallViscosity;
 
 /// Largest ratio of wall depth to fluid distance in the extrapolation: beyond, the explicit
@@ -76,5 +79,6 @@ impl<R: Real> PairLaw<R, WALL_SUMS> for WallViscosity {
         add_outer(sums, 3, dv, gd);
         sums[12] = sums[12] + depth;
         sums[13] = depth.fma(p.scalar, sums[13]);
+        add_scaled(sums, 14, weighted, p.d);
     }
 }
