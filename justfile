@@ -31,6 +31,10 @@ validate-long:
 validate-solids:
     cargo test --release -p vaso-solid --tests -- --ignored --nocapture
 
+# Blood in elastic tubes, with the figures printed; a quarter of an hour on two cores.
+validate-walls:
+    cargo test --release -p vaso-tests --test elastic_tube --test moving_wall -- --include-ignored --nocapture
+
 # Micro-benchmarks.
 bench:
     cargo bench -p vaso-benches

@@ -80,7 +80,6 @@ fn a_tube_under_pressure_widens_as_lame_says() {
         if before >= from {
             let now = middle(&flow, &pipe);
             sums.iter_mut().zip(now).for_each(|(sum, value)| *sum += (flow.time - before) * value);
-            println!("{:.4} s: {now:.4?}", flow.time);
         }
     }
     let [displacement, pressure, work] = sums;
@@ -93,6 +92,9 @@ fn a_tube_under_pressure_widens_as_lame_says() {
         work / (to - from),
         pressure / (to - from)
     );
+    assert!((work / (to - from) / smeared - 1.0).abs() < 0.02, "{work}");
+    // Four layers inflate within 1.4 % (docs/theory/solids.md); the rest is what is left of the sloshing.
+    assert!((displacement / pressure / smeared - 1.0).abs() < 0.04, "{displacement}");
 }
 
 /// Mean radial displacement of the innermost layer around `z` \[m\], continued from the middle of that layer to the face as in a
@@ -113,94 +115,161 @@ fn radial_displacement(flow: &Flow<f32>, pipe: &Pipe, z: f64) -> f64 {
 
 /// Time at which a rising series first passes `level`.
 fn passes(series: &[(f64, f64)], level: f64) -> f64 {
-    let k = series.iter().position(|s| s.1 > level).unwrap_or(series.len() - 1);
-    let ((t0, a), (t1, b)) = (series[k.max(1) - 1], series[k.max(1)]);
+    let k = series.iter().position(|s| s.1 > level).expect("the level is reached").max(1);
+    let ((t0, a), (t1, b)) = (series[k - 1], series[k]);
     t0 + (level - a) / (b - a) * (t1 - t0)
 }
 
-/// The pulse of Formaggia et al. 2001 in a tube of 300 kPa, 5 mm wide inside, 1 mm thick and 50 mm long between its rings.
+/// A pulse of pressure into a tube 5 mm wide inside and 1 mm thick, whose outlet is at no pressure.
 struct Pulse {
-    /// Times \[s\] at which half of the peak displacement passes places 10, 20, 30 and 40 mm behind the ring.
-    fronts: Vec<f64>,
-    /// Radial displacement of the middle \[m\] over time \[s\].
-    middle: Vec<(f64, f64)>,
-    /// Energy of the wall, work of the blood on it, and work of both openings, at the end \[J\].
-    energies: [f64; 2],
+    across: f64,
+    /// Length between the rings that are held \[m\].
+    free_length: f64,
+    layers: f64,
+    young: f64,
+    poisson: f64,
+    /// Density of the wall \[kg/m^3\]; that of the blood is 1000.
+    density: f64,
+    /// Pressure \[Pa\], and how long it lasts \[s\].
+    pressure: f64,
+    duration: f64,
+    end_time: f64,
+}
+
+/// What is seen of a pulse.
+struct Seen {
+    /// Radial displacement \[m\] over time \[s\] at each place asked for.
+    series: Vec<Vec<(f64, f64)>>,
+    /// Largest ratio, from the end of the pulse on, of the energy of the wall to the work of the openings so far.
+    energy_over_work: f64,
     escaped: u64,
     max_density_error: f64,
 }
 
-fn pulse(across: f64, layers: f64, wall: &str, end_time: f64) -> Pulse {
-    let thickness = 1e-3;
-    let wall = format!(
-        "material = \"saint-venant-kirchhoff\"\nthickness = \"{thickness} m\"\nspacing = \"{} m\"\n{wall}",
-        thickness / layers
-    );
-    let pipe = Pipe {
-        inlet: "condition = \"pressure\"\nwaveform = \"inflow.csv\"".into(),
-        outlet: "condition = \"pressure\"\nvalue = \"0 Pa\"".into(),
-        inflow: vec![[0.0, 0.0], [1e-4, 1333.2], [3e-3, 1333.2], [3.1e-3, 0.0], [1.0, 0.0]],
-        end_time,
-        ..tube(across, std::env::var("LENGTH").ok().and_then(|a| a.parse().ok()).unwrap_or(50e-3), &wall, "")
-    };
-    let (mut flow, _, plan) = pipe.flow::<f32>();
-    println!("{} {:?}", plan.sound_speed_reason, plan.predicted);
-    let ring = 4.0 * pipe.spacing();
-    let places: Vec<f64> = [10e-3, 20e-3, 30e-3, 40e-3, 25e-3].iter().map(|z| z + ring).collect();
-    let mut series = vec![Vec::new(); places.len()];
-    let mut said = 0.0;
-    while flow.time < end_time {
-        flow.step(end_time).unwrap_or_else(|e| panic!("{e}"));
-        for (series, z) in series.iter_mut().zip(&places) {
-            series.push((flow.time, radial_displacement(&flow, &pipe, *z)));
+impl Pulse {
+    /// Runs it; `places` are behind the first ring \[m\].
+    fn run(&self, places: &[f64]) -> Seen {
+        let thickness = 1e-3;
+        let wall = format!(
+            "material = \"saint-venant-kirchhoff\"\nthickness = \"{thickness} m\"\nspacing = \"{} m\"\n\
+             young_modulus = \"{} Pa\"\npoisson_ratio = {}\ndensity = \"{} kg/m^3\"",
+            thickness / self.layers,
+            self.young,
+            self.poisson,
+            self.density
+        );
+        let (p, t, rise) = (self.pressure, self.duration, self.duration / 30.0);
+        let pipe = Pipe {
+            inlet: "condition = \"pressure\"\nwaveform = \"inflow.csv\"".into(),
+            outlet: "condition = \"pressure\"\nvalue = \"0 Pa\"".into(),
+            inflow: vec![[0.0, 0.0], [rise, p], [t, p], [t + rise, 0.0], [1.0, 0.0]],
+            end_time: self.end_time,
+            ..tube(self.across, self.free_length, &wall, "")
+        };
+        let (mut flow, _, _) = pipe.flow::<f32>();
+        let ring = 4.0 * pipe.spacing();
+        let mut seen = Seen {
+            series: vec![Vec::new(); places.len()],
+            energy_over_work: 0.0,
+            escaped: 0,
+            max_density_error: 0.0,
+        };
+        let mut work = 0.0;
+        while flow.time < self.end_time {
+            let before = flow.time;
+            flow.step(self.end_time).unwrap_or_else(|e| panic!("{e}"));
+            let power: f64 = flow.readings.iter().map(|r| r.pressure * r.flow + r.kinetic_power).sum();
+            work -= (flow.time - before) * power;
+            for (series, z) in seen.series.iter_mut().zip(places) {
+                series.push((flow.time, radial_displacement(&flow, &pipe, z + ring)));
+            }
+            if flow.time > self.duration {
+                let e = flow.wall.as_mut().expect("the wall deforms").wall.energies();
+                seen.energy_over_work =
+                    seen.energy_over_work.max((e.kinetic + e.strain + e.hourglass) / work);
+            }
         }
-        if flow.time >= said {
-            said += 0.5e-3;
-            let now: Vec<f64> = series.iter().map(|s| 1e3 * s.last().map_or(0.0, |s| s.1)).collect();
-            println!("{:.2} ms: u_r {now:.4?} mm", 1e3 * flow.time);
-        }
-    }
-    let middle = series.pop().expect("it is there");
-    let peak = |s: &[(f64, f64)]| s.iter().map(|s| s.1).fold(0.0, f64::max);
-    let fronts = series.iter().map(|s| passes(s, 0.5 * peak(s))).collect();
-    let coupling = flow.wall.as_mut().expect("the wall deforms");
-    let e = coupling.wall.energies();
-    Pulse {
-        fronts,
-        middle,
-        energies: [e.kinetic + e.strain + e.hourglass, coupling.work],
-        escaped: flow.watch.escaped,
-        max_density_error: flow.watch.max_density_error,
+        seen.escaped = flow.watch.escaped;
+        seen.max_density_error = flow.watch.max_density_error;
+        seen
     }
 }
 
-fn report(name: &str, pulse: &Pulse) {
-    let speeds: Vec<f64> = pulse.fronts.windows(2).map(|t| 10e-3 / (t[1] - t[0])).collect();
-    let top = pulse.middle.iter().copied().fold((0.0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
-    let late = pulse.middle.iter().copied().filter(|s| s.0 > top.0);
-    let low = late.fold((0.0, 0.0), |a, b| if b.1 < a.1 { b } else { a });
+/// The benchmark of Formaggia et al. 2001. Displacements of the middle by the finite volumes of solids4foam (read off their curve to
+/// 0.003 mm): 0.142 mm at 7.3 ms, -0.049 mm at 10.7 ms.
+#[test]
+#[ignore = "ten minutes on two cores"]
+fn a_pulse_travels_along_an_elastic_tube() {
+    let pulse = Pulse {
+        across: 20.0,
+        free_length: 50e-3,
+        layers: 4.0,
+        young: 300e3,
+        poisson: 0.3,
+        density: 1200.0,
+        pressure: 1333.2,
+        duration: 3e-3,
+        end_time: 13e-3,
+    };
+    let seen = pulse.run(&[10e-3, 20e-3, 30e-3, 40e-3, 25e-3]);
+    let peak = |s: &[(f64, f64)]| s.iter().map(|s| s.1).fold(0.0, f64::max);
+    let fronts: Vec<f64> = seen.series[..4].iter().map(|s| passes(s, 0.5 * peak(s))).collect();
+    let speed = 30e-3 / (fronts[3] - fronts[0]);
+    let middle = &seen.series[4];
+    let top = middle.iter().copied().fold((0.0, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    let low = middle.iter().copied().fold((0.0, 0.0), |a, b| if b.1 < a.1 { b } else { a });
     println!(
-        "{name}: fronts {:?} ms, speeds {speeds:.3?} m/s, mean {:.3}; middle {:.4} mm at {:.2} ms, then {:.4} mm at {:.2} ms; \
-         energy {:.3e} of work {:.3e} J; density {:.4}, escaped {}",
-        pulse.fronts.iter().map(|t| (1e5 * t).round() / 100.0).collect::<Vec<_>>(),
-        30e-3 / (pulse.fronts[3] - pulse.fronts[0]),
+        "half the peaks at {fronts:.5?} s, {speed:.3} m/s; middle {:.4} mm at {:.3} ms, {:.4} mm at {:.3} ms; energy over work {:.3}; \
+         density {:.4}",
         1e3 * top.1,
         1e3 * top.0,
         1e3 * low.1,
         1e3 * low.0,
-        pulse.energies[0],
-        pulse.energies[1],
-        pulse.max_density_error,
-        pulse.escaped
+        seen.energy_over_work,
+        seen.max_density_error
     );
+    // Their pulse does not pass the first ring of 2 mm, at the speed of Moens and Korteweg, 5.48 m/s.
+    let ring = 2e-3 / 5.48;
+    assert!((top.0 / (7.3e-3 + ring) - 1.0).abs() < 0.03, "{} s", top.0);
+    assert!((low.0 / (10.7e-3 + ring) - 1.0).abs() < 0.03, "{} s", low.0);
+    // The load is smeared by 2.7 % at this spacing and the ring rounds the pulse off: seven per cent of the peak are missing.
+    assert!((top.1 / 0.142e-3 - 1.0).abs() < 0.1, "{} m", top.1);
+    assert!((low.1 / -0.049e-3 - 1.0).abs() < 0.1, "{} m", low.1);
+    assert_eq!(seen.escaped, 0);
 }
 
+/// Pulses as large for the wall as that of the benchmark, in walls light and heavy, soft and stiff.
 #[test]
-#[ignore = "some minutes"]
-fn a_pulse_travels_along_an_elastic_tube() {
-    let wall = "young_modulus = \"300 kPa\"\npoisson_ratio = 0.3\ndensity = \"1200 kg/m^3\"";
-    let across = std::env::var("ACROSS").ok().and_then(|a| a.parse().ok()).unwrap_or(10.0);
-    let layers = std::env::var("LAYERS").ok().and_then(|a| a.parse().ok()).unwrap_or(4.0);
-    let pulse = pulse(across, layers, wall, 20e-3);
-    report("pulse", &pulse);
+#[ignore = "some minutes on two cores"]
+fn light_and_soft_walls_keep_the_energy_they_get() {
+    for (density, young, poisson) in [
+        (500.0, 50e3, 0.3),
+        (500.0, 50e3, 0.49),
+        (1200.0, 50e3, 0.45),
+        (500.0, 10e6, 0.3),
+        (500.0, 10e6, 0.49),
+        (1200.0, 10e6, 0.45),
+    ] {
+        let slower = (300e3_f64 / young).sqrt();
+        let pulse = Pulse {
+            across: 10.0,
+            free_length: 24e-3,
+            layers: 2.0,
+            young,
+            poisson,
+            density,
+            pressure: 1333.2 * young / 300e3,
+            duration: 3e-3 * slower,
+            end_time: 20e-3 * slower,
+        };
+        let seen = pulse.run(&[12e-3]);
+        let top = seen.series[0].iter().map(|s| s.1.abs()).fold(0.0, f64::max);
+        println!(
+            "density {density}, E {young}, nu {poisson}: energy over work {:.3}, up to {:.4} mm, density error {:.4}",
+            seen.energy_over_work,
+            1e3 * top,
+            seen.max_density_error
+        );
+        assert!(seen.energy_over_work < 1.0 && seen.escaped == 0);
+    }
 }

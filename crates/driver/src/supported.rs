@@ -108,7 +108,7 @@ pub(crate) struct PlannedBlood {
 pub(crate) fn blood(scene: &Scene) -> Result<PlannedBlood, DriverError> {
     let Some(Blood { density, viscosity }) = scene.blood else {
         return Err(DriverError::input(format!(
-            "{}: there is no `[blood]`, and this version has no wall that could move without it; add `[blood]` with \
+            "{}: there is no `[blood]`, and this version moves no wall without it; add `[blood]` with \
              `density` and `viscosity`",
             scene.file.display()
         )));
