@@ -135,9 +135,11 @@ impl WallObserver {
     }
 
     /// Closes the window that is going on and takes its mean to hold until `time` \[s\]: means stand for the middles of windows,
-    /// and the last cycle ends half a window later.
+    /// and the last cycle ends half a window later. One with less than half of its samples is left out: its mean is as noisy as
+    /// they are few.
     pub(super) fn finish(&mut self, time: f64) -> Result<Option<f64>, DriverError> {
-        let change = self.close_window()?;
+        let is_short = self.stress.is_some() && (self.window.samples as f64) < 0.5 * SAMPLES;
+        let change = if is_short { None } else { self.close_window()? };
         let Some(stress) = self.stress.take() else { return Ok(change) };
         let last = self.put(time, &stress)?;
         self.stress = Some(stress);
