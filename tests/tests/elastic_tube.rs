@@ -1,6 +1,5 @@
 //! Elastic tubes filled with blood: inflated to rest, and with a pulse that travels along them.
 
-use std::f64::consts::TAU;
 use vaso_driver::Flow;
 use vaso_tests::pipe::Pipe;
 
@@ -24,37 +23,29 @@ const THICKNESS: f64 = 2e-3;
 const PRESSURE: f64 = 500.0;
 
 /// What is seen of the middle fifth of the tube: radial displacement of the innermost layer over that of Lame's thick tube in plane
-/// strain under the full pressure; mean pressure over that; work of the load per radial displacement of the inner face, over that of
-/// the mean pressure.
-fn middle(flow: &Flow<f32>, pipe: &Pipe) -> [f64; 3] {
-    let coupling = flow.wall.as_ref().expect("the wall deforms");
-    let (solid, load) = (&coupling.wall, coupling.load());
+/// strain under the full pressure, and the mean pressure over that.
+fn middle(flow: &Flow<f32>, pipe: &Pipe) -> [f64; 2] {
+    let solid = &flow.wall.as_ref().expect("the wall deforms").wall;
     let (a, b) = (pipe.radius(), pipe.radius() + THICKNESS);
     let lame = |r: f64| {
         PRESSURE * a * a * (1.0 + POISSON) / (YOUNG * (b * b - a * a))
             * ((1.0 - 2.0 * POISSON) * r + b * b / r)
     };
     let is_middle = |z: f64| (z - 0.5 * pipe.length).abs() < 0.1 * pipe.length;
-    let (mut displacement, mut expected, mut work) = (0.0, 0.0, 0.0);
+    let (mut displacement, mut expected) = (0.0, 0.0);
     for i in 0..solid.state.len() {
         let x = solid.state.reference_position[i];
         let r = x.x.hypot(x.y);
-        if !is_middle(x.z) {
-            continue;
-        }
-        if r < a + solid.numbers().spacing {
+        if is_middle(x.z) && r < a + solid.numbers().spacing {
             let u = solid.state.displacement[i];
             displacement += (u.x * x.x + u.y * x.y) / r;
             expected += lame(r);
         }
-        // The wall keeps its volume: at r it moves by a / r of what it does at a.
-        let force = load.pressure_force[i];
-        work += (force.x * x.x + force.y * x.y) / r * a / r;
     }
     let state = &flow.fluid.state;
     let within = (0..state.len()).filter(|&i| is_middle(state.position[i].z));
     let (sum, n) = within.fold((0.0, 0.0), |(sum, n), i| (sum + state.pressure[i], n + 1.0));
-    [displacement / expected, sum / n / PRESSURE, work / (TAU * a * 0.2 * pipe.length) / (sum / n)]
+    [displacement / expected, sum / n / PRESSURE]
 }
 
 #[test]
@@ -63,7 +54,7 @@ fn a_tube_under_pressure_widens_as_lame_says() {
         "material = \"saint-venant-kirchhoff\"\nyoung_modulus = \"{YOUNG} Pa\"\npoisson_ratio = {POISSON}\n\
          thickness = \"{THICKNESS} m\"\ndensity = \"1000 kg/m^3\"\ndamping = \"quasi-static\""
     );
-    let end = format!("condition = \"pressure\"\nvalue = \"{PRESSURE} Pa\"\nramp = \"20 ms\"");
+    let end = format!("condition = \"pressure\"\nvalue = \"{PRESSURE} Pa\"\nramp = \"14 ms\"");
     // Slow sound is enough for a state at rest, and a thick liquid comes to it soon.
     let pipe = Pipe {
         inlet: end.clone(),
@@ -72,8 +63,9 @@ fn a_tube_under_pressure_widens_as_lame_says() {
         ..tube(10.0, 30e-3, &wall, "[numerics]\nsound_speed = \"20 m/s\"")
     };
     let (mut flow, _, _) = pipe.flow::<f32>();
-    let (from, to) = (22e-3, 38e-3);
-    let mut sums = [0.0; 3];
+    // One period of the sloshing, after the ramp.
+    let (from, to) = (16e-3, 28e-3);
+    let mut sums = [0.0; 2];
     while flow.time < to {
         let before = flow.time;
         flow.step(to).unwrap_or_else(|e| panic!("{e}"));
@@ -82,19 +74,13 @@ fn a_tube_under_pressure_widens_as_lame_says() {
             sums.iter_mut().zip(now).for_each(|(sum, value)| *sum += (flow.time - before) * value);
         }
     }
-    let [displacement, pressure, work] = sums;
-    // The load lies behind the face by the kernel: less work by 0.104 H/R, see the theory of the coupling.
-    let smeared = 1.0 - 0.104 * 2.6 / 5.0;
-    println!(
-        "displacement {:.4} of Lame, {:.4} with the load where it is; work {:.4}, by theory {smeared:.4}; pressure {:.4}",
-        displacement / pressure,
-        displacement / pressure / smeared,
-        work / (to - from),
-        pressure / (to - from)
-    );
-    assert!((work / (to - from) / smeared - 1.0).abs() < 0.02, "{work}");
-    // Four layers inflate within 1.4 % (docs/theory/solids.md); the rest is what is left of the sloshing.
-    assert!((displacement / pressure / smeared - 1.0).abs() < 0.04, "{displacement}");
+    let [displacement, pressure] = sums;
+    println!("displacement {:.4} of Lame, pressure {:.4}", displacement / pressure, pressure / (to - from));
+    // The load lies behind the face by the kernel, which takes up to 0.104 H/R of its work (docs/theory/coupling.md); four layers
+    // inflate within 1.4 % (docs/theory/solids.md).
+    let bound = 0.104 * 2.6 / 5.0 + 0.014;
+    assert!((displacement / pressure - 1.0).abs() < bound, "{}", displacement / pressure);
+    assert_eq!(flow.watch.escaped, 0);
 }
 
 /// Mean radial displacement of the innermost layer around `z` \[m\], continued from the middle of that layer to the face as in a
