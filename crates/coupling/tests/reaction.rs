@@ -66,10 +66,9 @@ fn imbalance(rheology: Option<Rheology>, is_alone: bool) -> f64 {
         lattice(7).filter(|x| Room.sample(*x).0 > 0.0).map(|x| x + 0.1 * SPACING * random()).collect();
     let depth: Vec<f64> = wall.iter().map(|x| Room.sample(*x).0.max(0.1 * SPACING)).collect();
     let volume = vec![SPACING.powi(3); wall.len()];
-    let velocity: Vec<DVec3> = wall.iter().map(|_| 0.05 * random()).collect();
+    assert!(wall.len() > 1000, "{} particles in the wall", wall.len());
     let spin = move |x: DVec3| 0.05 * DVec3::new(3.0 * x.y - x.z, x.z + x.x, 2.0 * x.y - x.x) / SPACING;
-    let structure =
-        Prescribed::new(wall.clone(), depth, volume, move |x: DVec3, t| (x + t * spin(x), spin(x)));
+    let structure = Prescribed::new(wall, depth, volume, move |x: DVec3, t| (x + t * spin(x), spin(x)));
     let mut numbers = Numbers::new(1050.0, 3.5e-3, 0.5, SPACING);
     // Mass over density is then the volume in the records to the last bit, and all pairs of the fluid cancel.
     numbers.density_blend = 0.0;
@@ -79,7 +78,6 @@ fn imbalance(rheology: Option<Rheology>, is_alone: bool) -> f64 {
         state.velocity[i] = 0.2 * random();
         state.density_change[i] = 5.0 * random().x;
     }
-    assert!(velocity.len() > 1000);
     let bounds = (DVec3::splat(-2.0 * HALF), DVec3::splat(2.0 * HALF));
     let view = vaso_coupling::MovingWall::view(&structure);
     let mut fluid = Fluid::<f64>::new(state, view, Box::new(Room), bounds, numbers, Isa::detect());
