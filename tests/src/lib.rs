@@ -42,7 +42,8 @@ pub fn cache() -> PathBuf {
 pub fn flow<R: Real>(case: &Case) -> (Flow<R>, Plan) {
     let plan = Plan::new(case).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    (world::build_flow(case, &plan, bodies), plan)
+    let flow = world::build_flow(case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
+    (flow, plan)
 }
 
 /// A case of the folder `cases` with overrides.

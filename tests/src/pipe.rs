@@ -147,6 +147,7 @@ impl Pipe {
     pub fn flow<R: Real>(&self) -> (Flow<R>, Case, Plan) {
         let (case, plan) = self.plan();
         let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-        (world::build_flow(&case, &plan, bodies), case, plan)
+        let flow = world::build_flow(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
+        (flow, case, plan)
     }
 }

@@ -55,7 +55,7 @@ fn run(data: &Path, spacing: f64, generator: &str) -> Outcome {
     let case = Case::load(&file, &set).unwrap_or_else(|e| panic!("{e}"));
     let plan = Plan::new(&case).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    let mut flow: Flow<f32> = world::build_flow(&case, &plan, bodies);
+    let mut flow: Flow<f32> = world::build_flow(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
     let mut marks = Vec::new();
     for end in [0.3, 0.4, 0.5] {
         while flow.time < end {

@@ -22,6 +22,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("metrics", &["geometry", "kernels", "particles"]),
     ("io", &["particles"]),
     ("boundary", &["fluid", "geometry", "particles"]),
+    ("coupling", &["fluid", "particles", "solid"]),
     ("report", &["io"]),
     (
         "driver",
@@ -35,6 +36,8 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "fluid",
             "io",
             "boundary",
+            "coupling",
+            "solid",
             "metrics",
             "report",
         ],

@@ -10,6 +10,7 @@ use vaso_generation::{
 };
 use vaso_geometry::Vessel;
 use vaso_io::{Cache, CacheKey};
+use vaso_scene::material::ElasticWall;
 use vaso_scene::{Generator, OpenEnds, Scene};
 
 /// The fluid with what became of its blocks, where it has any.
@@ -67,7 +68,7 @@ impl<'a, P: FnMut(&str, usize, f64)> Maker<'a, P> {
     /// When spacing or thickness do not fit the vessel.
     pub fn wall(&mut self) -> Result<Made<Wall>, DriverError> {
         let (thickness, ends) = wall_shape(&self.case.scene);
-        let (settings, progress) = (&self.settings, &mut self.progress);
+        let (settings, progress) = (&wall_settings(&self.case.scene), &mut self.progress);
         let key = kept::key::<Wall>(self.case).relaxed(settings).number(thickness).ends(ends).finish();
         obtain(self.case, key, |vessel| {
             wall(vessel, settings, thickness, ends, &mut |step, moved| progress("wall", step, moved))
@@ -138,6 +139,23 @@ pub fn settings(scene: &Scene) -> Settings {
     }
 }
 
+/// Settings of the wall of several layers that a scene asks for: a deformable one may have particles of its own spacing.
+pub fn wall_settings(scene: &Scene) -> Settings {
+    let usual = settings(scene);
+    match &scene.wall {
+        vaso_scene::Wall::Solid(wall) => Settings { spacing: wall_spacing(wall, usual.spacing), ..usual },
+        _ => usual,
+    }
+}
+
+/// Layers that a wall needs to be inflated.
+pub(crate) const LAYERS_TO_INFLATE: f64 = 4.0;
+
+/// Spacing \[m\] of a deformable wall in blood of a `spacing` \[m\].
+pub(crate) fn wall_spacing(wall: &ElasticWall, spacing: f64) -> f64 {
+    wall.spacing.unwrap_or_else(|| spacing.min(wall.thickness / LAYERS_TO_INFLATE))
+}
+
 /// Relaxation steps of a shell over those of the case: it starts from random places on its triangles, not from a lattice.
 const SHELL_STEPS: f64 = 2.5;
 
@@ -162,6 +180,8 @@ pub fn wall_shape(scene: &Scene) -> (f64, Ends) {
     let thickness = scene.wall_body.thickness.unwrap_or(WALL_LAYERS * scene.particles.spacing);
     let usual = match scene.wall {
         vaso_scene::Wall::Rigid | vaso_scene::Wall::RigidShell => OpenEnds::Collar,
+        // Blood near a cap has to see a wall all around.
+        vaso_scene::Wall::Solid(_) if scene.blood.is_some() => OpenEnds::Collar,
         _ => OpenEnds::ClosestCap,
     };
     let ends = match scene.wall_body.open_ends.unwrap_or(usual) {
@@ -173,7 +193,7 @@ pub fn wall_shape(scene: &Scene) -> (f64, Ends) {
 }
 
 /// Support radius of the kernel 2h \[m\].
-fn support(scene: &Scene) -> f64 {
+pub(crate) fn support(scene: &Scene) -> f64 {
     2.0 * scene.numerics.smoothing_length * scene.particles.spacing
 }
 

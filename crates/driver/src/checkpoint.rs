@@ -17,6 +17,9 @@ pub const VERSION: u32 = 1;
 pub fn write<R: Real>(folder: &Path, flow: &mut Flow<R>) -> Result<(), IoError> {
     let mut archive = Archive::new(KIND, VERSION);
     archive.put_columns("fluid", &mut flow.fluid.state);
+    if let Some(wall) = &mut flow.wall {
+        archive.put_columns("wall", &mut wall.wall);
+    }
     archive.put_floats("time_s", &[flow.time]);
     archive.put_integers("steps", &[flow.advective_steps, flow.acoustic_steps, flow.particle_substeps]);
     let counters = flow.openings.ports().iter().map(|p| p.counters);

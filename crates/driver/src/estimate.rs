@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::plan::PlannedOpening;
+use crate::structure::PlannedWall;
 use std::f64::consts::PI;
 use vaso_boundary::Condition;
 use vaso_fluid::Numbers;
@@ -138,34 +139,48 @@ const PARABOLIC: f64 = 2.0;
 /// Time a fluid particle takes a core for one acoustic step, all in \[s\]: measured, see `docs/figures.md`.
 const SUBSTEP_MIXED: f64 = 0.55e-6;
 const SUBSTEP_DOUBLE: f64 = 0.78e-6;
+/// Time a particle of a solid takes a core for one sub-step \[s\]: measured, see `docs/theory/solids.md`.
+const SUBSTEP_SOLID: f64 = 0.28e-6;
 /// Time a particle of any body takes a core to be made \[s\].
 const GENERATION: f64 = 0.2e-3;
 /// Bytes a fluid particle takes, rows included.
 const BYTES_MIXED: f64 = 2000.0;
 const BYTES_DOUBLE: f64 = 2800.0;
-/// Bytes a wall particle takes.
+/// Bytes a particle of a wall takes, rows included.
 const BYTES_WALL: f64 = 400.0;
 
 /// Expected particles, memory and time of a run.
-pub fn cost(case: &Case, numbers: &Numbers, precision: Precision, end_time: f64) -> Predicted {
+pub fn cost(
+    case: &Case,
+    numbers: &Numbers,
+    solid: Option<&PlannedWall>,
+    precision: Precision,
+    end_time: f64,
+) -> Predicted {
     let spacing = numbers.spacing;
     let fluid = case.vessel.surface.volume() / spacing.powi(3);
-    let layer = vaso_generation::WALL_LAYERS * spacing;
+    let layer = solid.map_or(vaso_generation::WALL_LAYERS * spacing, |s| s.thickness);
+    let wall_spacing = solid.map_or(spacing, |s| s.numbers.spacing);
     // A curved wall has more volume outside than a flat one: 1 + t / 2R, with R = 2V/A of a tube.
     let area = case.vessel.wall_area();
     let radius = 2.0 * case.vessel.surface.volume() / area;
     let collars: f64 =
         case.vessel.openings.iter().map(|o| 2.0 * PI * o.radius * 2.0 * numbers.smoothing_length).sum();
-    let wall = (area + collars) * layer * (1.0 + 0.5 * layer / radius) / spacing.powi(3);
+    let wall = (area + collars) * layer * (1.0 + 0.5 * layer / radius) / wall_spacing.powi(3);
     let step = numbers.acoustic_step(0.5 * numbers.reference_speed);
     let (substep, bytes) = match precision {
         Precision::Mixed => (SUBSTEP_MIXED, BYTES_MIXED),
         Precision::Double => (SUBSTEP_DOUBLE, BYTES_DOUBLE),
     };
+    let solid_time = solid.map_or(0.0, |s| {
+        let own = s.numbers.stable_step(s.material.wave_speed(s.numbers.density), 0.0);
+        wall * (end_time / step) * (step / own).ceil() * SUBSTEP_SOLID
+    });
     let threads = rayon::current_num_threads() as f64;
     Predicted {
         particles: ParticleCounts { fluid: fluid.round() as u64, wall: wall.round() as u64, shell: 0 },
         memory_bytes: (fluid * bytes + wall * BYTES_WALL) as u64,
-        wall_clock_s: (fluid * (end_time / step) * substep + (fluid + wall) * GENERATION) / threads,
+        wall_clock_s: (fluid * (end_time / step) * substep + solid_time + (fluid + wall) * GENERATION)
+            / threads,
     }
 }

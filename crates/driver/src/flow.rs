@@ -1,10 +1,12 @@
-//! The loop nest of a rigid-wall flow: advective step around acoustic steps.
+//! The loop nest of a flow: advective step around acoustic steps, and those of a wall that moves within them.
 
 use crate::ledger::{Ledger, Stage};
 use glam::DVec3;
 use vaso_boundary::{Openings, Reading};
+use vaso_coupling::{Coupling, CouplingError, MovingWall};
 use vaso_fluid::{Fluid, Real};
 use vaso_particles::visit;
+use vaso_solid::Solid;
 
 /// A run that cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,6 +49,14 @@ pub enum Diverged {
         /// Simulated time \[s\].
         time: f64,
     },
+    /// The wall has broken down.
+    #[error("the wall at {time:.6e} s: {source}")]
+    Wall {
+        /// What it says.
+        source: CouplingError,
+        /// Simulated time \[s\].
+        time: f64,
+    },
     /// All fluid is gone.
     #[error("no fluid particle is left at {time:.6e} s")]
     Empty {
@@ -70,10 +80,12 @@ pub struct Watch {
     pub non_finite: u64,
 }
 
-/// A flow in time.
-pub struct Flow<R> {
+/// A flow in time, in a rigid wall or one of kind `W`.
+pub struct Flow<R, W = Solid<R>> {
     /// The blood.
     pub fluid: Fluid<R>,
+    /// The wall, where it moves.
+    pub wall: Option<Coupling<W>>,
     /// Its openings.
     pub openings: Openings,
     /// Simulated time \[s\].
@@ -97,13 +109,14 @@ pub struct Flow<R> {
 /// Mach number at which a run stops, unless it is allowed.
 const MAX_MACH: f64 = 0.2;
 
-impl<R: Real> Flow<R> {
-    /// Flow that starts from the state of `fluid`.
+impl<R: Real, W: MovingWall> Flow<R, W> {
+    /// Flow that starts from the state of `fluid`, in a rigid wall.
     pub fn new(mut fluid: Fluid<R>, mut openings: Openings, allow_mach: bool) -> Self {
         openings.start(&mut fluid.state);
         let readings = vec![Reading::default(); openings.ports().len()];
         Self {
             fluid,
+            wall: None,
             openings,
             time: 0.0,
             advective_steps: 0,
@@ -116,13 +129,20 @@ impl<R: Real> Flow<R> {
         }
     }
 
+    /// The same flow with a wall that moves; it has to be where that of the fluid is.
+    #[must_use]
+    pub fn with_wall(mut self, wall: W) -> Self {
+        self.wall = Some(Coupling::new(wall, &mut self.fluid));
+        self
+    }
+
     /// Takes one advective step, no further than to `until` \[s\].
     ///
     /// # Errors
-    /// When a value is not finite, the flow too fast or the vessel empty; the state is then that of
+    /// When a value is not finite, the flow too fast, the vessel empty or the wall broken; the state is then that of
     /// the step in which it showed.
     pub fn step(&mut self, until: f64) -> Result<(), Diverged> {
-        let Self { fluid, openings, ledger, .. } = self;
+        let Self { fluid, openings, ledger, wall, .. } = self;
         if self.advective_steps > 0 {
             ledger.time(Stage::Exchange, || openings.exchange(&mut fluid.state, self.time));
         }
@@ -134,11 +154,17 @@ impl<R: Real> Flow<R> {
             openings.locate(&fluid.state);
             openings.tie(&mut fluid.state, self.time);
         });
+        if let Some(wall) = wall {
+            ledger.time(Stage::Coupling, || wall.show(fluid));
+        }
         ledger.time(Stage::Rows, || fluid.search(openings.zones()));
         ledger.time(Stage::Summation, || fluid.summation(openings.zones()));
         ledger.time(Stage::Viscosity, || fluid.viscosity());
         if fluid.numbers().rheology.is_some() {
             ledger.time(Stage::ShearThinning, || fluid.shear_thinning());
+        }
+        if let Some(wall) = wall {
+            ledger.time(Stage::Coupling, || wall.take_drag(fluid));
         }
         ledger.time(Stage::Viscosity, || fluid.offsets());
         let duration = fluid.advective_step().min(until - self.time);
@@ -151,6 +177,13 @@ impl<R: Real> Flow<R> {
             let inner = ledger.time(Stage::Momentum, || fluid.kick(dt));
             let end = self.time + elapsed + dt;
             let near = ledger.time(Stage::Openings, || openings.apply(fluid, end, dt));
+            if let Some(wall) = wall {
+                ledger.time(Stage::Coupling, || wall.take_pressure(fluid));
+                ledger
+                    .time(Stage::Wall, || wall.advance(dt))
+                    .map_err(|source| Diverged::Wall { source, time: end })?;
+                ledger.time(Stage::Coupling, || wall.show_velocity(fluid, dt));
+            }
             elapsed += dt;
             self.acoustic_steps += 1;
             self.particle_substeps += fluid.state.len() as u64;

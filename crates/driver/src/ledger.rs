@@ -17,6 +17,10 @@ pub enum Stage {
     ShearThinning,
     /// Pressure of the wall particles.
     WallPressure,
+    /// What wall and blood tell each other, where the wall moves.
+    Coupling,
+    /// Motion of the wall.
+    Wall,
     /// Momentum half of the acoustic step.
     Momentum,
     /// Conditions at the openings.
@@ -35,13 +39,15 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in the order of a step.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Exchange,
         Self::Rows,
         Self::Summation,
         Self::Viscosity,
         Self::ShearThinning,
         Self::WallPressure,
+        Self::Coupling,
+        Self::Wall,
         Self::Momentum,
         Self::Openings,
         Self::Continuity,
@@ -60,6 +66,8 @@ impl Stage {
             Self::Viscosity => "blood.viscosity",
             Self::ShearThinning => "blood.shear_thinning",
             Self::WallPressure => "wall.pressure",
+            Self::Coupling => "wall.coupling",
+            Self::Wall => "wall.motion",
             Self::Momentum => "blood.momentum",
             Self::Openings => "openings.impose",
             Self::Continuity => "blood.continuity",

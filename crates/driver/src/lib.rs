@@ -21,6 +21,7 @@ pub mod quality;
 pub mod results;
 pub mod run;
 mod start;
+pub mod structure;
 mod supported;
 mod timing;
 pub mod tune;

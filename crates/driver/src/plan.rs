@@ -5,6 +5,7 @@ use crate::conditions;
 pub use crate::conditions::PlannedOpening;
 use crate::error::DriverError;
 use crate::estimate;
+use crate::structure::PlannedWall;
 use crate::{start, supported, timing};
 use vaso_boundary::Condition;
 use vaso_fluid::{Isa, Numbers};
@@ -20,6 +21,8 @@ pub struct Plan {
     pub sound_speed_reason: String,
     /// Openings with their conditions, largest first.
     pub openings: Vec<PlannedOpening>,
+    /// The wall, where it deforms.
+    pub wall: Option<PlannedWall>,
     /// Pressure the equation of state is relative to \[Pa\]; `None` follows the first pressure outlet, or else the
     /// outlet models.
     pub reference_pressure: Option<f64>,
@@ -49,6 +52,9 @@ pub struct Plan {
     pub warnings: Vec<String>,
 }
 
+/// Sound speed over that of the pulse wave: `1/c_eff^2 = 1/c_w^2 + 1/c^2`, so that 7 slows it by one per cent.
+const PULSE_FACTOR: f64 = 7.0;
+
 /// Density change allowed for the pressure range in the equation of state.
 const DENSITY_CHANGE: f64 = 0.01;
 
@@ -67,18 +73,28 @@ impl Plan {
         let period = timing::period(scene, &openings);
         let ramp = openings.iter().filter_map(|o| inlet_ramp(&o.condition)).fold(0.0, f64::max);
 
-        let flow = estimate::Flow::new(
-            &case.vessel,
-            &openings,
-            density,
-            viscosity,
-            ramp,
-            scene.numerics.reference_pressure,
-        );
+        // Where walls deform the reference has to stay what it is: see the decision on the uniform pressure.
+        let reference_pressure = match &scene.wall {
+            vaso_scene::Wall::Solid(wall) => {
+                Some(scene.numerics.reference_pressure.unwrap_or(wall.unloaded_pressure))
+            }
+            _ => scene.numerics.reference_pressure,
+        };
+        let wall = PlannedWall::new(case, reference_pressure.unwrap_or(0.0))?;
+        let flow = estimate::Flow::new(&case.vessel, &openings, density, viscosity, ramp, reference_pressure);
         let by_speed = scene.numerics.sound_speed_factor * flow.top_speed;
         let by_pressure = (flow.pressure_range / (DENSITY_CHANGE * density)).sqrt();
+        let by_wave = wall.as_ref().map_or(0.0, |wall| PULSE_FACTOR * wall.pulse_speed);
         let (sound_speed, sound_speed_reason) = match scene.numerics.sound_speed {
             Some(given) => (given, "given in the case".to_owned()),
+            None if by_wave >= by_speed.max(by_pressure) => (
+                by_wave,
+                format!(
+                    "{PULSE_FACTOR} times the pulse wave speed of {:.2} m/s, which it then slows by {:.0} %",
+                    by_wave / PULSE_FACTOR,
+                    50.0 / (PULSE_FACTOR * PULSE_FACTOR)
+                ),
+            ),
             None if by_speed >= by_pressure => (
                 by_speed,
                 format!(
@@ -111,6 +127,7 @@ impl Plan {
         let mut warnings = case.vessel.audit.notices.clone();
         let settings = crate::bodies::settings(scene);
         warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(ToString::to_string));
+        warnings.extend(wall.iter().flat_map(PlannedWall::warnings));
         if across < 12.0 {
             warnings.push(format!(
                 "{across:.1} particles lie across the narrowest opening; flow patterns want 12, wall shear stress 20"
@@ -124,7 +141,7 @@ impl Plan {
         }
         let precision = scene.numerics.precision;
         let isa = Isa::detect();
-        let predicted = estimate::cost(case, &numbers, precision, scene.run.end_time);
+        let predicted = estimate::cost(case, &numbers, wall.as_ref(), precision, scene.run.end_time);
         let womersley = scene
             .run
             .period
@@ -132,7 +149,7 @@ impl Plan {
         Ok(Self {
             numbers,
             sound_speed_reason,
-            reference_pressure: scene.numerics.reference_pressure,
+            reference_pressure,
             precision,
             isa,
             ramp,
@@ -142,7 +159,8 @@ impl Plan {
             wall_metrics: scene.output.fields.iter().any(|f| supported::is_shear(*f)),
             reynolds_peak: flow.reynolds_peak,
             womersley,
-            effects: supported::effects(scene, &openings),
+            effects: supported::effects(scene, &openings, wall.as_ref()),
+            wall,
             predicted,
             warnings,
             openings,

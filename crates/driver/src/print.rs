@@ -57,7 +57,17 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         n.rest_density,
         viscosity
     );
-    let _ = writeln!(out, "         vessel  wall  {:>9}   rigid, four layers", p.particles.wall);
+    let kind = match &plan.wall {
+        None => "rigid, four layers".to_owned(),
+        Some(wall) => format!(
+            "solid, {:.1} layers   spacing {:.3} mm   density {} kg/m3   pulse wave {:.2} m/s",
+            wall.layers(),
+            wall.numbers.spacing * 1e3,
+            wall.numbers.density,
+            wall.pulse_speed
+        ),
+    };
+    let _ = writeln!(out, "         vessel  wall  {:>9}   {kind}", p.particles.wall);
     let reach = n.smoothing_length / n.spacing * 2.0;
     let _ = writeln!(
         out,
@@ -89,7 +99,10 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         plan.reference_pressure.map_or_else(
             || "the first pressure outlet is the reference, or else the common pressure of the outlet models: the uniform part stays \
              out of the equation of state".to_owned(),
-            |p| format!("relative to {p} Pa, as given in the case"),
+            |p| match plan.wall {
+                None => format!("relative to {p} Pa, as given in the case"),
+                Some(_) => format!("relative to {p} Pa at all times, as the wall deforms"),
+            },
         )
     );
     let _ = writeln!(

@@ -85,7 +85,7 @@ fn run_precision<R: Real>(
     started: Instant,
 ) -> Result<Summary, DriverError> {
     let n_wall = bodies.wall.position.len();
-    let mut flow = build_flow::<R>(case, plan, bodies);
+    let mut flow = build_flow::<R>(case, plan, bodies)?;
     let mut results = Results::create(out, case, plan)?;
     let ended = advance(&mut flow, &mut results, case, plan, stop, &mut progress);
     progress.finish();

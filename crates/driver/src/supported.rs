@@ -1,15 +1,17 @@
 //! What this version can run, and every effect it knows.
 
-use crate::bodies::wall_shape;
+use crate::bodies::{wall_shape, wall_spacing};
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::PlannedOpening;
+use crate::structure::PlannedWall;
 use crate::timing;
 use vaso_boundary::{Condition, Source};
 use vaso_fluid::Rheology;
 use vaso_generation::Ends;
 use vaso_io::EffectEntry;
-use vaso_scene::material::Viscosity;
+
+use vaso_scene::material::{Material, Viscosity};
 use vaso_scene::{Blood, Field, Scene, Wall, Word};
 
 /// Refuses, all at once, what a case asks for and this version does not have.
@@ -35,24 +37,47 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
             scene.file.display()
         ));
     };
-    if !matches!(scene.wall, Wall::Rigid) {
-        let seen = match scene.wall {
-            Wall::RigidShell => "rigid-shell",
-            Wall::Solid(_) => "solid",
-            _ => "shell",
-        };
-        refuse("wall.model".into(), seen, "\"rigid\"");
+    let is_solid = matches!(scene.wall, Wall::Solid(_));
+    if !is_solid && !matches!(scene.wall, Wall::Rigid) {
+        let seen = if matches!(scene.wall, Wall::RigidShell) { "rigid-shell" } else { "shell" };
+        refuse("wall.model".into(), seen, "\"rigid\", \"solid\"");
     } else if !matches!(ends, Ends::Collar { .. }) {
         let seen = if matches!(ends, Ends::Boxes) { "boxes" } else { "closest-cap" };
         refuse("wall.open_ends".into(), seen, "\"collar\"");
     }
     for field in &scene.output.fields {
-        if matches!(field, Field::Displacement | Field::VonMises) {
+        if is_solid && is_shear(*field) {
+            refuse(
+                "output.fields".into(),
+                field.word(),
+                "where the wall deforms, fields of the blood and \"displacement\", \"von_mises\"",
+            );
+        }
+        if !is_solid && matches!(field, Field::Displacement | Field::VonMises) {
             refuse(
                 "output.fields".into(),
                 field.word(),
                 "fields of blood and of the stress it has on the wall",
             );
+        }
+    }
+    if let Wall::Solid(wall) = &scene.wall {
+        if matches!(wall.material, Material::HolzapfelGasserOgden { .. }) {
+            refuse(
+                "wall.material".into(),
+                "holzapfel-gasser-ogden",
+                "\"neo-hookean\", \"saint-venant-kirchhoff\", \"hypoelastic\"; its fibres need directions that nothing finds yet",
+            );
+        }
+        let (own, blood) = (wall_spacing(wall, scene.particles.spacing), scene.particles.spacing);
+        if own > blood * (1.0 + 1e-9) {
+            problems.push(format!(
+                "{}: `wall.spacing` is {:.4} mm, wider than the {:.4} mm of the blood, which would see gaps in the wall; make \
+                 it at most that",
+                scene.file.display(),
+                1e3 * own,
+                1e3 * blood
+            ));
         }
     }
     if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
@@ -83,7 +108,7 @@ pub(crate) struct PlannedBlood {
 pub(crate) fn blood(scene: &Scene) -> Result<PlannedBlood, DriverError> {
     let Some(Blood { density, viscosity }) = scene.blood else {
         return Err(DriverError::input(format!(
-            "{}: there is no `[blood]`, and this version has no wall that could move without it; add `[blood]` with \
+            "{}: there is no `[blood]`, and this version moves no wall without it; add `[blood]` with \
              `density` and `viscosity`",
             scene.file.display()
         )));
@@ -113,7 +138,11 @@ pub(crate) fn blood(scene: &Scene) -> Result<PlannedBlood, DriverError> {
 }
 
 /// Every effect the program knows, with the reason it is on or off.
-pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectEntry> {
+pub(crate) fn effects(
+    scene: &Scene,
+    openings: &[PlannedOpening],
+    wall: Option<&PlannedWall>,
+) -> Vec<EffectEntry> {
     let named = |test: &dyn Fn(&Condition) -> bool| {
         let names: Vec<&str> =
             openings.iter().filter(|o| test(&o.condition)).map(|o| o.name.as_str()).collect();
@@ -175,10 +204,36 @@ pub(crate) fn effects(scene: &Scene, openings: &[PlannedOpening]) -> Vec<EffectE
             "kernel sums at a wall or in disorder are 1 to 3 % off without it".into(),
         ),
         on("blood.transport_velocity", "keeps particles evenly spread along streamlines".into()),
-        on(
-            "wall.rigid",
-            "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach".into(),
-        ),
+        EffectEntry {
+            on: wall.is_none(),
+            called_for: wall.is_none(),
+            ..on(
+                "wall.rigid",
+                match wall {
+                    None => {
+                        "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach"
+                            .into()
+                    }
+                    Some(_) => "`wall.model` is \"solid\"".into(),
+                },
+            )
+        },
+        EffectEntry {
+            on: wall.is_some(),
+            called_for: wall.is_some(),
+            ..on("wall.solid", wall.map_or("`wall.model` is \"rigid\"".into(), PlannedWall::reason))
+        },
+        EffectEntry {
+            on: wall.is_some(),
+            called_for: wall.is_some(),
+            ..on(
+                "wall.coupling",
+                match wall {
+                    None => "the wall does not move".into(),
+                    Some(_) => "the wall gets the forces it has on the blood, and shows where it is".into(),
+                },
+            )
+        },
         either("opening.velocity", &inlets, "no opening prescribes a velocity or flow"),
         either("opening.pressure", &outlets, "no opening prescribes a pressure"),
         either("opening.resistance", &resistances, "no opening has a resistance"),

@@ -11,8 +11,9 @@ use vaso_fluid::{Fluid, FluidState, Real};
 use vaso_generation::Body;
 use vaso_geometry::{DistanceGrid, SignedDistance};
 use vaso_particles::{WallDistance, WallView};
+use vaso_solid::Solid;
 
-/// Particles of a flow in a rigid wall.
+/// Particles of a flow and its wall.
 pub struct Bodies {
     /// Blood.
     pub fluid: Body,
@@ -64,17 +65,23 @@ const BAND: f64 = 5.0;
 /// spacing 2.7 % of the distance of the first layer at D/20, and ten per cent of the drag on it.
 const CELL: f64 = 0.5;
 
-/// Puts the bodies together: fluid at rest in a rigid wall, with the openings of the plan.
-pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> {
+/// Puts the bodies together: fluid at rest in its wall, with the openings of the plan.
+///
+/// # Errors
+/// When the particles of the wall do not make a solid.
+pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Result<Flow<R>, DriverError> {
     let spacing = plan.numbers.spacing;
     let Bodies { fluid, wall, .. } = bodies;
+    let solid = plan.wall.as_ref().map(|planned| planned.build(case, plan, &wall)).transpose()?;
+    // A wall that moves may come out of these bounds: then cells at the border hold more than their share.
     let low = wall.position.iter().fold(DVec3::INFINITY, |a, b| a.min(*b)) - spacing;
     let high = wall.position.iter().fold(DVec3::NEG_INFINITY, |a, b| a.max(*b)) + spacing;
     let exact = SignedDistance::wall(&case.vessel);
     let distance = DistanceGrid::build(&exact, (low, high), CELL * spacing, BAND * spacing);
     let velocity = vec![DVec3::ZERO; wall.position.len()];
-    let view =
+    let at_rest =
         WallView { position: &wall.position, velocity: &velocity, depth: &wall.depth, volume: &wall.volume };
+    let view = solid.as_ref().map_or(at_rest, Solid::wall_view);
     let state = FluidState::at_rest(fluid.position, &fluid.volume, plan.numbers.rest_density);
     let body =
         Fluid::new(state, view, Box::new(RigidDistance(distance)), (low, high), plan.numbers, plan.isa);
@@ -86,5 +93,9 @@ pub fn build_flow<R: Real>(case: &Case, plan: &Plan, bodies: Bodies) -> Flow<R> 
             openings.set_backflow_damping(k, strength);
         }
     }
-    Flow::new(body, openings, case.scene.numerics.allow_mach)
+    let flow = Flow::new(body, openings, case.scene.numerics.allow_mach);
+    Ok(match solid {
+        None => flow,
+        Some(solid) => flow.with_wall(solid),
+    })
 }

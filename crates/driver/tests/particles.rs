@@ -122,7 +122,7 @@ fn bare_surfaces_get_all_bodies() {
 }
 
 #[test]
-fn walls_that_deform_can_be_filled_though_not_run() {
+fn walls_of_a_shell_can_be_filled_though_not_run() {
     let folder = pipe();
     let solid = |command: &str, model: &str| {
         let mut vaso = Command::new(env!("CARGO_BIN_EXE_vaso"));
@@ -131,9 +131,9 @@ fn walls_that_deform_can_be_filled_though_not_run() {
         vaso.args(["--set", "wall.young_modulus=0.5 MPa", "--out"]).arg(folder.path().join(model));
         vaso
     };
-    refused(&mut solid("run", "solid"), &["`wall.model`"]);
+    refused(&mut solid("run", "shell"), &["`wall.model`"]);
     let wall = json(&mut solid("particles", "solid"));
-    assert_eq!(wall["wall"]["open_ends"], "closest-cap");
+    assert_eq!(wall["wall"]["open_ends"], "collar");
     assert_eq!((&wall["quality"]["shell"], &wall["shell"]), (&Value::Null, &Value::Null));
     // A mid-surface of radius 3.175 + 0.9 mm has that much more area than the lumen.
     let shell = json(&mut solid("particles", "shell"));

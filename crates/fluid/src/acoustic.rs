@@ -4,6 +4,7 @@ use crate::fluid::{FAR, Fluid, maximum, numbered, propagating_max};
 use crate::law::density::{CapDivergence, Divergence};
 use crate::law::pressure::{self, FluidPressure, WallPressureForce};
 use crate::law::wall_pressure::WallPressure;
+use crate::moving::{AtRest, Wall};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
@@ -50,6 +51,9 @@ impl<R: Real> Fluid<R> {
 
     /// Gives every wall particle the kernel mean of the fluid pressure around it.
     pub fn wall_pressure(&mut self) {
+        if self.moving.is_some() {
+            return self.moving_wall_pressure();
+        }
         let (isa, frame) = (self.isa, &self.frame);
         let wall = &mut self.wall;
         let (current, kinematic) = (&self.current, &wall.kinematic);
@@ -72,6 +76,17 @@ impl<R: Real> Fluid<R> {
     /// Kicks all velocities by pressure and viscosity over `dt` \[s\] and drifts positions to the
     /// end of the step. Returns the top speed \[m/s\].
     pub fn kick(&mut self, dt: f64) -> f64 {
+        match self.moving.take() {
+            None => self.kick_along(&AtRest, dt),
+            Some(moving) => {
+                let top = self.kick_along(&*moving, dt);
+                self.moving = Some(moving);
+                top
+            }
+        }
+    }
+
+    fn kick_along(&mut self, along: &impl Wall, dt: f64) -> f64 {
         self.elapsed += dt;
         let share = dt / self.elapsed;
         let numbers = self.numbers;
@@ -131,10 +146,7 @@ impl<R: Real> Fluid<R> {
                     let pressure_force =
                         gradient * frozen.correction.mul(neighbours) - pressure * frozen.own_pressure;
                     let dissipation = gradient * DVec3::new(f[3], f[4], f[5]);
-                    // Closing speed of the particle and its mirror image behind a wall at rest.
-                    let closing = (-2.0 * velocity[k].dot(frozen.wall_normal)).max(0.0);
-                    let limited = (numbers.dissipation_limiter * closing / numbers.sound_speed).min(1.0);
-                    let wall_force = frozen.wall_area * limited * impedance * closing * frozen.wall_normal;
+                    let wall_force = along.dissipation(i, velocity[k], frozen, &numbers);
                     let acceleration =
                         (pressure_force + dissipation + wall_force) / rho + frozen.acceleration;
                     let v = velocity[k] + dt * acceleration;
@@ -157,6 +169,16 @@ impl<R: Real> Fluid<R> {
     /// Second half of an acoustic step `dt` \[s\]: the density follows the divergence of the new
     /// velocity. Where another step of `dt_next` follows, its first half is taken along.
     pub fn continuity(&mut self, dt: f64, dt_next: Option<f64>) {
+        match self.moving.take() {
+            None => self.continuity_along(&AtRest, dt, dt_next),
+            Some(moving) => {
+                self.continuity_along(&*moving, dt, dt_next);
+                self.moving = Some(moving);
+            }
+        }
+    }
+
+    fn continuity_along(&mut self, along: &impl Wall, dt: f64, dt_next: Option<f64>) {
         let numbers = self.numbers;
         let gradient = self.kernel.gradient_scale();
         let (isa, frame) = (self.isa, &self.frame);
@@ -193,9 +215,7 @@ impl<R: Real> Fluid<R> {
                     let i = c * CHUNK + k;
                     let v = velocity[i];
                     let rho = numbers.rest_density + density_change[k];
-                    // Walls at rest: the mirrored velocity doubles their part. Sliding along them compresses nothing.
-                    let normal = frozen[k].wall_normal;
-                    let to_wall = 2.0 * v.dot(normal) * normal.dot(frozen[k].wall_gradient);
+                    let to_wall = along.convergence(i, v, &frozen[k]);
                     let convergence = to_wall - gradient * sums[k][0] - frozen[k].false_convergence;
                     rate[k] += rho * convergence;
                     density_change[k] += 0.5 * dt * rate[k];

@@ -1,6 +1,7 @@
 //! The fluid body of a run: its state, its neighbours and what is frozen for an advective step.
 
 use crate::cap::CapZone;
+use crate::moving::Moving;
 use crate::numbers::Numbers;
 use crate::state::FluidState;
 use crate::wall::WallSide;
@@ -87,6 +88,8 @@ pub struct Fluid<R> {
     set: SearchSet,
     pub(crate) rows: Rows,
     pub(crate) wall: WallSide<R>,
+    /// What a wall needs that moves; nothing for one at rest.
+    pub(crate) moving: Option<Box<Moving<R>>>,
     /// Records the momentum law reads.
     pub(crate) current: Records<R>,
     /// Records the continuity law reads: the same with the new velocity.
@@ -129,6 +132,7 @@ impl<R: Real> Fluid<R> {
             set: SearchSet::default(),
             rows: Rows::default(),
             wall: WallSide::new(wall, &frame, bounds),
+            moving: None,
             current: Records::default(),
             next: Records::default(),
             second: Records::default(),
@@ -163,6 +167,7 @@ impl<R: Real> Fluid<R> {
         visit::bytes(&mut self.state)
             + self.rows.bytes()
             + self.wall.bytes()
+            + self.moving_bytes()
             + self.current.bytes()
             + self.next.bytes()
             + self.second.bytes()
@@ -200,9 +205,13 @@ impl<R: Real> Fluid<R> {
             self.zone_of[zone.particle as usize] = k as u32 + 1;
         }
         self.frozen.resize(n, Frozen::default());
+        if self.moving.is_some() {
+            self.see_wall();
+        }
         let floor = 0.05 * self.numbers.spacing;
         let (distance, reach, rows) = (&self.wall_distance, self.reach, &self.wall.fluid_rows);
         let (position, zone_of) = (&self.state.position, &self.zone_of);
+        let displacement = self.moving.as_ref().map(|m| m.displacement.as_slice());
         self.frozen.par_chunks_mut(CHUNK).zip(rows.chunks()).enumerate().for_each(|(c, (frozen, row))| {
             for (k, frozen) in frozen.iter_mut().enumerate() {
                 *frozen = Frozen::default();
@@ -211,7 +220,8 @@ impl<R: Real> Fluid<R> {
                     frozen.cap_depth = zones[zone_of[i] as usize - 1].open_depth() / reach;
                 }
                 if !row.is_row_empty(k) {
-                    let (phi, gradient) = distance.sample(position[i]);
+                    let moved = displacement.map_or(DVec3::ZERO, |u| u[i]);
+                    let (phi, gradient) = distance.sample(position[i] - moved);
                     frozen.inverse_distance = 1.0 / (-phi).clamp(floor, reach);
                     frozen.wall_normal = -gradient;
                 }
@@ -219,7 +229,7 @@ impl<R: Real> Fluid<R> {
         });
     }
 
-    /// Signed distance to the wall \[m\] and its gradient.
+    /// Signed distance to the wall \[m\] and its gradient, where the wall was when the distance was measured.
     pub fn distance(&self, x: DVec3) -> (f64, DVec3) {
         self.wall_distance.sample(x)
     }

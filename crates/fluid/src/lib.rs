@@ -5,6 +5,7 @@ pub mod cap;
 pub mod energy;
 pub mod fluid;
 pub mod law;
+mod moving;
 pub mod numbers;
 mod rheology;
 pub mod state;
@@ -12,6 +13,7 @@ mod summation;
 pub mod transport;
 mod viscosity;
 pub mod wall;
+mod wall_force;
 
 pub use cap::CapZone;
 pub use energy::Energy;

@@ -88,7 +88,8 @@ impl<R: Real> Fluid<R> {
             .with_min_len(CHUNK)
             .filter(|&i| self.frozen[i].inverse_distance > 0.0)
             .filter_map(|i| {
-                let (phi, gradient) = self.distance(self.state.position[i]);
+                let moved = self.moving.as_ref().map_or(DVec3::ZERO, |m| m.displacement[i]);
+                let (phi, gradient) = self.distance(self.state.position[i] - moved);
                 (phi > -PENETRATION * spacing).then_some((i, phi, gradient))
             })
             .collect();
@@ -100,7 +101,8 @@ impl<R: Real> Fluid<R> {
                 continue;
             }
             self.state.position[i] -= (phi + PUT_BACK * spacing) * gradient;
-            let outward = self.state.velocity[i].dot(gradient).max(0.0);
+            let wall = self.moving.as_ref().map_or(DVec3::ZERO, |m| m.velocity[i]);
+            let outward = (self.state.velocity[i] - wall).dot(gradient).max(0.0);
             self.state.velocity[i] -= outward * gradient;
             guarded.returned += 1;
         }

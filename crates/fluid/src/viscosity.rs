@@ -17,6 +17,7 @@ impl<R: Real> Fluid<R> {
     /// [`Self::shear_thinning`] has to follow, in any case [`Self::offsets`].
     pub fn viscosity(&mut self) {
         self.near_wall();
+        self.note_for_wall();
         // The wall law wants the inverse distance where the other laws want the pressure.
         let frozen = &self.frozen;
         self.current
@@ -103,6 +104,7 @@ impl<R: Real> Fluid<R> {
             .with_min_len(1024)
             .for_each(|(record, frozen)| record[7] = R::pack(frozen.wall_distance() / support));
         let (isa, current, velocity) = (self.isa, &self.current, &self.state.velocity);
+        let of_wall = self.moving.as_ref().map(|m| m.velocity.as_slice());
         let gather =
             Gather { frame: &self.frame, own: current, other: current, own_second: None, other_second: None };
         (self.slope.par_chunks_mut(CHUNK), self.rows.chunks(), self.wall.fluid_rows.chunks())
@@ -117,8 +119,8 @@ impl<R: Real> Fluid<R> {
                     let s = frozen[i].wall_distance() / support;
                     let volume = current.as_slice()[i][3].widen();
                     near_wall::add_own(&mut sums[k], s, volume, velocity[i].to_array());
-                    // The wall is at rest.
-                    let b = near_wall::curvature(&sums[k], [0.0; 3]);
+                    let wall = of_wall.map_or([0.0; 3], |v| v[i].to_array());
+                    let b = near_wall::curvature(&sums[k], wall);
                     bend[k].x_axis = DVec3::from_array(b) / (support * support);
                 }
             });
@@ -198,7 +200,7 @@ fn velocity_gradient(raw: &[f64; 9], frozen: &Frozen) -> DMat3 {
 }
 
 /// Symmetric part of a velocity gradient, times `scale`.
-fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
+pub(crate) fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
     let sym = |a: usize, b: usize| 0.5 * scale * (g.col(a)[b] + g.col(b)[a]);
     [sym(0, 0), sym(1, 1), sym(2, 2), sym(0, 1), sym(0, 2), sym(1, 2)]
 }

@@ -23,23 +23,38 @@ impl<R: Real> WallSide<R> {
     /// Takes from `view` the particles that a fluid particle in the lumen can reach: those no
     /// deeper than the support.
     pub fn new(view: WallView, frame: &Frame, bounds: (DVec3, DVec3)) -> Self {
+        let mut wall = Self {
+            position: Vec::new(),
+            grid: CellGrid::new(bounds, frame.support()),
+            set: SearchSet::default(),
+            kinematic: Records::default(),
+            dynamic: Records::default(),
+            fluid_rows: Rows::default(),
+            wall_rows: Rows::default(),
+        };
+        wall.arrange(&view, frame);
+        wall
+    }
+
+    /// Takes the wall anew, as [`Self::new`]; returns the place in `view` of each particle kept.
+    pub(crate) fn arrange(&mut self, view: &WallView, frame: &Frame) -> Vec<u32> {
         let reachable: Vec<usize> =
             (0..view.position.len()).filter(|&a| view.depth[a] < frame.support()).collect();
         let unsorted: Vec<DVec3> = reachable.iter().map(|&a| view.position[a]).collect();
-        let mut grid = CellGrid::new(bounds, frame.support());
         let mut order = Vec::new();
-        grid.sort(&unsorted, &mut order);
-        let source: Vec<usize> = order.iter().map(|&k| reachable[k as usize]).collect();
-        let position: Vec<DVec3> = source.iter().map(|&a| view.position[a]).collect();
-        let mut set = SearchSet::default();
-        set.fill(frame, &position);
-        let pack = |scalar: &dyn Fn(usize) -> f64| {
-            let mut records = Records::default();
+        self.grid.sort(&unsorted, &mut order);
+        let source: Vec<u32> = order.iter().map(|&k| reachable[k as usize] as u32).collect();
+        self.position.clear();
+        self.position.extend(source.iter().map(|&a| view.position[a as usize]));
+        self.set.fill(frame, &self.position);
+        let (position, set) = (&self.position, &self.set);
+        let pack = |records: &mut Records<R>, scalar: &(dyn Fn(usize) -> f64 + Sync)| {
             records.resize(source.len());
-            for (k, (record, &a)) in records.as_mut_slice().iter_mut().zip(&source).enumerate() {
+            records.fill(|k| {
+                let a = source[k] as usize;
                 let (fixed, x) = (set.get(k), frame.in_supports(position[k]));
                 let v = view.velocity[a];
-                *record = [
+                [
                     R::coordinate(fixed[0], x[0]),
                     R::coordinate(fixed[1], x[1]),
                     R::coordinate(fixed[2], x[2]),
@@ -48,21 +63,12 @@ impl<R: Real> WallSide<R> {
                     R::pack(v.y),
                     R::pack(v.z),
                     R::pack(scalar(a)),
-                ];
-            }
-            records
+                ]
+            });
         };
-        let kinematic = pack(&|a| view.depth[a]);
-        let dynamic = pack(&|_| 0.0);
-        Self {
-            position,
-            grid,
-            set,
-            kinematic,
-            dynamic,
-            fluid_rows: Rows::default(),
-            wall_rows: Rows::default(),
-        }
+        pack(&mut self.kinematic, &|a| view.depth[a]);
+        pack(&mut self.dynamic, &|_| 0.0);
+        source
     }
 
     /// Finds the rows of the fluid among the wall and of the wall among the fluid.

@@ -13,6 +13,7 @@ mod output;
 pub mod particles;
 pub mod schema;
 mod series;
+mod solid;
 mod summary;
 mod table;
 mod wall;
@@ -34,6 +35,7 @@ pub use series::{
     FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, SurfaceField, SurfaceFrame,
     SurfaceMesh, SurfaceSeriesWriter, read_series_info,
 };
+pub use solid::SolidSummary;
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};
 pub use wall::{Distribution, LOW_TAWSS, WallSummary};

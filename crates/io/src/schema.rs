@@ -10,6 +10,9 @@ pub const FIELDS: &[(&str, &str)] = &[
     (ID, "1"),
     (DISPLACEMENT, "m"),
     (VON_MISES, "Pa"),
+    (STRESS_DIAGONAL, "Pa"),
+    (STRESS_SHEAR, "Pa"),
+    (PRINCIPAL_STRETCHES, "1"),
     (WSS, "Pa"),
     (TAWSS, "Pa"),
     (OSI, "1"),
@@ -40,6 +43,12 @@ pub const ID: &str = "Id";
 pub const DISPLACEMENT: &str = "Displacement";
 /// Von Mises stress of the wall \[Pa\].
 pub const VON_MISES: &str = "VonMises";
+/// Cauchy stress of the wall, xx, yy and zz \[Pa\].
+pub const STRESS_DIAGONAL: &str = "CauchyStressDiagonal";
+/// Cauchy stress of the wall, xy, yz and zx \[Pa\].
+pub const STRESS_SHEAR: &str = "CauchyStressShear";
+/// Principal stretches of the wall, largest first.
+pub const PRINCIPAL_STRETCHES: &str = "PrincipalStretches";
 /// Wall shear stress vector: the force of the fluid on the wall per area \[Pa\].
 pub const WSS: &str = "WSS";
 /// Time average of the magnitude of the wall shear stress over a cycle \[Pa\].

@@ -4,6 +4,7 @@
 //! as `null` and read back as NaN. The file is written when a run starts (status `running`) and again at
 //! its end, whatever the end is.
 
+use crate::SolidSummary;
 use crate::check::{EffectEntry, Numbers, OpeningEntry, SurfaceReport};
 use crate::cycles::{CycleSummary, EndReason, EnergySummary};
 use crate::json;
@@ -62,6 +63,9 @@ pub struct Summary {
     /// Stresses of the wall; absent where they were not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallSummary>,
+    /// The wall where it deforms; absent where it is rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solid: Option<SolidSummary>,
     /// The geometry audit.
     #[serde(default)]
     pub surface: Option<SurfaceReport>,

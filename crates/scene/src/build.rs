@@ -121,6 +121,7 @@ impl Builder<'_> {
         Some(ElasticWall {
             material: self.material(section)?,
             thickness: section.number("thickness"),
+            spacing: section.optional_number("spacing"),
             density: section.number("density"),
             ends: section.word("ends")?,
             damping: section.word("damping")?,
@@ -128,6 +129,8 @@ impl Builder<'_> {
                 stiffness: support.number("stiffness"),
                 damping: support.number("damping"),
             }),
+            unloaded_pressure: section.number("unloaded_pressure"),
+            external_pressure: section.number("external_pressure"),
             pressure: if blood { None } else { Some(pressure?) },
         })
     }

@@ -100,6 +100,8 @@ pub struct ElasticWall {
     pub material: Material,
     /// Thickness, outwards from the surface \[m\].
     pub thickness: f64,
+    /// Distance between its particles \[m\]; `None` leaves it to the planner.
+    pub spacing: Option<f64>,
     /// Density at rest \[kg/m^3\].
     pub density: f64,
     /// What holds the wall at the openings.
@@ -108,6 +110,10 @@ pub struct ElasticWall {
     pub damping: Damping,
     /// Tissue around the wall.
     pub support: Option<Support>,
+    /// Gauge pressure of the blood at which the wall is without load in the shape of the surface \[Pa\].
+    pub unloaded_pressure: f64,
+    /// Gauge pressure on the outer face \[Pa\].
+    pub external_pressure: f64,
     /// Gauge pressure on the inner face \[Pa\]; present exactly when the scene has no blood.
     pub pressure: Option<Drive>,
 }

@@ -57,6 +57,7 @@ const ELASTIC_WALL: &[When] = &[ELASTIC];
 const RIGID_LAYERS: &[When] = &[When { key: "model", words: &["rigid"] }];
 const RIGID_SHELL: &[When] = &[When { key: "model", words: &["rigid-shell"] }];
 const LAYERS: &[When] = &[When { key: "model", words: &["rigid", "solid"] }];
+const SOLID_WALL: &[When] = &[When { key: "model", words: &["solid"] }];
 const SHELLS: &[When] = &[When { key: "model", words: &["rigid-shell", "shell"] }];
 const ISOTROPIC: &[When] =
     &[ELASTIC, When { key: "material", words: &["neo-hookean", "saint-venant-kirchhoff", "hypoelastic"] }];
@@ -119,7 +120,8 @@ pub(crate) const KEYS: &[Key] = &[
     only(ELASTIC_WALL, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Required, "Thickness, outwards from the surface."),
     only(RIGID_LAYERS, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Optional("four spacings"), "Thickness of the layers that stand for it."),
     only(RIGID_SHELL, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Optional("one spacing"), "Thickness written with its particles."),
-    only(LAYERS, "wall.open_ends", Choice(OpenEnds::WORDS), Optional("\"collar\" where it is rigid, else \"closest-cap\""), "Where its particles end at the openings."),
+    only(SOLID_WALL, "wall.spacing", Quantity(LENGTH, Range::POSITIVE), Optional("that of the particles, or as much less as four layers need"), "Distance between the particles of the wall, at most that of the blood."),
+    only(LAYERS, "wall.open_ends", Choice(OpenEnds::WORDS), Optional("\"collar\" where it is rigid or meets blood, else \"closest-cap\""), "Where its particles end at the openings."),
     only(SHELLS, "wall.open_ends", Choice(OpenEnds::OF_SHELLS), Optional("\"closest-cap\""), "Where its particles end at the openings."),
     only(ELASTIC_WALL, "wall.density", Quantity(DENSITY, Range::POSITIVE), Default("1120 kg/m^3"), "Density at rest."),
     only(ISOTROPIC, "wall.young_modulus", Quantity(PRESSURE, Range::POSITIVE), Required, "Young's modulus."),
@@ -132,6 +134,8 @@ pub(crate) const KEYS: &[Key] = &[
     only(ELASTIC_WALL, "wall.ends", Choice(Ends::WORDS), Default("clamped"), "What holds the wall at the openings."),
     only(ELASTIC_WALL, "wall.pressure", Quantity(PRESSURE, Range::ANY), Optional("only without `[blood]`, and then this or `pressure_waveform`"), "Load on the inner face of a scene without blood."),
     only(ELASTIC_WALL, "wall.pressure_waveform", File, Optional("see `pressure`"), "The same over time: a file of two columns, time and pressure."),
+    only(ELASTIC_WALL, "wall.unloaded_pressure", Quantity(PRESSURE, Range::ANY), Default("0 Pa"), "Gauge pressure of the blood at which the wall is without load in the shape of the surface."),
+    only(ELASTIC_WALL, "wall.external_pressure", Quantity(PRESSURE, Range::ANY), Default("0 Pa"), "Gauge pressure on the outer face."),
     only(ELASTIC_WALL, "wall.damping", Choice(Damping::WORDS), Default("material"), "What takes energy out of its motion."),
     only(ELASTIC_WALL, "wall.support", Table, Optional("nothing around the wall"), "Tissue around the wall."),
     key("wall.support.stiffness", Quantity(SUPPORT_STIFFNESS, Range::NON_NEGATIVE), Default("0 Pa/m"), "Traction per displacement."),

@@ -90,7 +90,7 @@ fn means(pipe: &Pipe, numbers: Option<Numbers>) -> Means {
     let planned = plan.numbers;
     plan.numbers = numbers.unwrap_or(planned);
     let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    let mut flow = world::build_flow::<f32>(&case, &plan, bodies);
+    let mut flow = world::build_flow::<f32>(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
     let n_start = flow.fluid.state.len() as u64;
     let axis = pipe.axis.normalize();
     let back = pipe.turn().inverse();

@@ -89,7 +89,7 @@ fn run() -> Option<Outcome> {
     setup.cache = Some(cache());
     let plan = Plan::new(&setup).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(&setup, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    let mut flow = world::build_flow(&setup, &plan, bodies);
+    let mut flow = world::build_flow(&setup, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
     let mut sums = vec![(0.0, 0.0_f64); stations.len()];
     let flown = fly_on(&mut flow, END, |flow| {
         if flow.time < END - AVERAGED {

@@ -120,7 +120,7 @@ fn run(spec: &Spec) -> Option<Outcome> {
     setup.cache = Some(cache());
     let plan = Plan::new(&setup).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(&setup, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    let mut flow = world::build_flow::<f32>(&setup, &plan, bodies);
+    let mut flow = world::build_flow::<f32>(&setup, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
 
     let place = |name: &str| plan.openings.iter().position(|o| o.name == name).expect("it is in the case");
     let inlet = place("inlet");

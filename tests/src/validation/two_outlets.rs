@@ -60,7 +60,7 @@ fn run() -> Option<Outcome> {
     setup.cache = Some(cache());
     let plan = Plan::new(&setup).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(&setup, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    let mut flow = world::build_flow(&setup, &plan, bodies);
+    let mut flow = world::build_flow(&setup, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
     let place = |name: &str| plan.openings.iter().position(|o| o.name == name).expect("it is in the case");
     let at = models.map(|(name, _)| place(name));
     let mut pressures = [const { Series { points: Vec::new() } }; 2];

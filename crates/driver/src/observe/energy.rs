@@ -9,12 +9,15 @@ use vaso_metrics::{EnergyBalance, EnergySample};
 /// Follows the energy of the blood.
 ///
 /// The buffers of inlets do not count, where velocities are imposed and pressures mean nothing: what flows in is taken just
-/// inside of them. Pressures are relative to the reference pressure, which does no work on a rigid lumen.
+/// inside of them. Pressures are relative to the reference pressure, which does no work on a rigid lumen, and is taken out of that
+/// on a wall that deforms as well. What such a wall gets is no longer in the blood.
 pub struct EnergyObserver {
     /// What entered and where it went so far.
     pub balance: EnergyBalance,
     /// Whether a velocity is imposed at each opening.
     is_inlet: Vec<bool>,
+    /// Work on the wall up to a time.
+    wall: (f64, f64),
 }
 
 impl EnergyObserver {
@@ -22,6 +25,7 @@ impl EnergyObserver {
         let is_inlet = |c: &Condition| matches!(c, Condition::Velocity { .. });
         Self {
             balance: EnergyBalance::default(),
+            wall: (0.0, 0.0),
             is_inlet: plan.openings.iter().map(|o| is_inlet(&o.condition)).collect(),
         }
     }
@@ -32,8 +36,13 @@ impl EnergyObserver {
         let opening = &flow.fluid.state.opening;
         let counts = |i: usize| usize::try_from(opening[i]).map_or(true, |k| !self.is_inlet[k]);
         let energy = flow.fluid.energy(counts);
+        let wall_power = flow.wall.as_ref().map_or(0.0, |wall| {
+            let (work, time) = self.wall;
+            self.wall = (wall.work, flow.time);
+            (wall.work - work) / (flow.time - time)
+        });
         let sample = EnergySample {
-            inflow_power: -flow.readings.iter().map(outflow).sum::<f64>(),
+            inflow_power: -flow.readings.iter().map(outflow).sum::<f64>() - wall_power,
             dissipation: energy.friction,
             kinetic_energy: energy.kinetic,
         };

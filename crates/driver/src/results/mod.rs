@@ -13,6 +13,7 @@ use vaso_io::{EndReason, OutputDir, SeriesWriter, Table};
 
 mod account;
 mod frames;
+mod solid;
 mod summary;
 mod wall;
 
@@ -52,6 +53,8 @@ pub struct Results {
     folder: std::path::PathBuf,
     fluid: SeriesWriter,
     wall: Option<WallFile>,
+    /// Series of a wall that deforms.
+    solid: Option<SeriesWriter>,
     table: Table,
     probes: Option<Table>,
     next_frame: f64,
@@ -92,6 +95,7 @@ impl Results {
         let wall = observers.wall.as_ref().map(|w| WallFile::create(out.file("wall.vtkhdf"), w, fields));
         Ok(Self {
             wall: wall.transpose()?,
+            solid: plan.wall.as_ref().map(|_| SeriesWriter::create(out.file("wall.vtkhdf"))),
             folder: out.path().to_owned(),
             fluid: SeriesWriter::create(out.file("fluid.vtkhdf")),
             table,
@@ -187,6 +191,9 @@ impl Results {
         }
         if self.fluid.last_time() == Some(flow.time) {
             return Ok(());
+        }
+        if let (Some(series), Some(wall)) = (&mut self.solid, &flow.wall) {
+            solid::append(series, flow.time, wall, &case.scene.output.fields)?;
         }
         Ok(append_frame(&mut self.fluid, flow, &case.scene.output.fields)?)
     }

@@ -1,14 +1,14 @@
 //! What `summary.json` says of a run.
 
-use super::{Results, account, outflows};
+use super::{Results, account, outflows, solid};
 use crate::case::Case;
 use crate::flow::Flow;
 use crate::ledger::Stage;
 use crate::plan::Plan;
 use vaso_fluid::Real;
 use vaso_io::{
-    Numbers, OpeningEntry, OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary,
-    SurfaceReport,
+    Numbers, OpeningEntry, OpeningSummary, ParticleCounts, SolidSummary, Stability, Status, StepCounts,
+    Summary, SurfaceReport,
 };
 
 impl Results {
@@ -41,7 +41,11 @@ impl Results {
             wall_clock_s: wall_clock,
             threads: rayon::current_num_threads() as u64,
             particles: ParticleCounts { fluid: flow.fluid.state.len() as u64, wall: n_wall as u64, shell: 0 },
-            steps: StepCounts { advection: flow.advective_steps, acoustic: flow.acoustic_steps, solid: 0 },
+            steps: StepCounts {
+                advection: flow.advective_steps,
+                acoustic: flow.acoustic_steps,
+                solid: flow.wall.as_ref().map_or(0, |w| w.substeps),
+            },
             particle_substeps_per_s: flow.particle_substeps as f64 / loop_seconds.max(f64::MIN_POSITIVE),
             spacing_m: plan.numbers.spacing,
             sound_speed_m_s: plan.numbers.sound_speed,
@@ -60,6 +64,7 @@ impl Results {
             cycles: account::cycles(&self.observers, &case.scene.output.fractional_flow_reserve),
             energy: Some(account::energy(&self.observers.energy, flow.openings.ports())),
             wall: self.observers.wall.as_ref().map(account::wall),
+            solid: solid_summary(flow, plan),
             surface: Some(surface_report(&case.vessel)),
             numbers: Some(numbers(plan)),
             warnings: plan.warnings.clone(),
@@ -78,6 +83,11 @@ impl Results {
         let inflow: f64 = change.iter().map(|c| (-c).max(0.0)).sum();
         if inflow > 0.0 { change.iter().sum::<f64>().abs() / inflow } else { f64::NAN }
     }
+}
+
+fn solid_summary<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Option<SolidSummary> {
+    let wall = flow.wall.as_mut()?;
+    Some(solid::summary(wall, plan.wall.as_ref().map_or(0.0, |w| w.layers())))
 }
 
 /// Geometry of an opening as JSON has it.
@@ -117,6 +127,7 @@ pub fn numbers(plan: &Plan) -> Numbers {
 /// Effects of the plan with the time of the stages they are made of.
 fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::EffectEntry> {
     let bytes = flow.fluid.bytes();
+    let wall_bytes = flow.wall.as_mut().map(|wall| [wall.wall.bytes(), wall.bytes()]);
     let spent = |stages: &[Stage]| stages.iter().map(|&s| flow.ledger.seconds(s)).sum::<f64>();
     plan.effects
         .iter()
@@ -129,6 +140,8 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
                 "blood.density_blend" => &[Stage::Summation],
                 "blood.transport_velocity" => &[Stage::Transport],
                 "wall.rigid" => &[Stage::WallPressure],
+                "wall.solid" => &[Stage::Wall],
+                "wall.coupling" => &[Stage::WallPressure, Stage::Coupling],
                 "metrics.wall_shear" => &[Stage::WallShear],
                 "opening.velocity" | "opening.pressure" | "opening.resistance" | "opening.windkessel" => {
                     &[Stage::Exchange, Stage::Openings]
@@ -151,6 +164,13 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
             }
             if effect.name == "blood.pressure" {
                 entry.bytes = Some(bytes as u64);
+            }
+            if let (Some([solid, between]), true) = (wall_bytes, effect.on) {
+                match effect.name.as_str() {
+                    "wall.solid" => entry.bytes = Some(solid as u64),
+                    "wall.coupling" => entry.bytes = Some(between as u64),
+                    _ => {}
+                }
             }
             entry
         })

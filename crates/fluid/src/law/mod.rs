@@ -6,6 +6,7 @@
 
 pub mod density;
 pub mod moments;
+pub mod moving;
 pub mod near_wall;
 pub mod offset;
 pub mod pressure;

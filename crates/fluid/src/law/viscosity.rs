@@ -52,7 +52,7 @@ pub struct WallViscosity;
 
 /// Largest ratio of wall depth to fluid distance in the extrapolation: beyond, the explicit
 /// viscous step would have to shrink.
-const MAX_EXTRAPOLATION: f64 = 5.0;
+pub(super) const MAX_EXTRAPOLATION: f64 = 5.0;
 
 impl<R: Real> PairLaw<R, WALL_SUMS> for WallViscosity {
     type Constants<L: Lanes<Elem = R>> = ();

@@ -1,0 +1,45 @@
+//! What a wall that moves has to be able to do, and the solid that can.
+
+use vaso_particles::{WallLoad, WallView};
+use vaso_solid::{Real, Solid, SolidError};
+
+/// A wall that cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CouplingError {
+    /// The solid of the wall says why.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+}
+
+/// A wall that moves, under forces of the fluid or of itself.
+pub trait MovingWall {
+    /// Particles as the fluid sees them, with their velocities at the end of the last step; always as many, in the same order.
+    fn view(&self) -> WallView<'_>;
+
+    /// Takes the forces of the fluid, which hold until the next ones.
+    ///
+    /// # Errors
+    /// When they do not fit the wall.
+    fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError>;
+
+    /// Goes on by a step of the fluid `dt` \[s\], under forces that stay the same; returns the number of sub-steps it took.
+    ///
+    /// # Errors
+    /// When the wall breaks down.
+    fn advance(&mut self, dt: f64) -> Result<usize, CouplingError>;
+}
+
+impl<R: Real> MovingWall for Solid<R> {
+    fn view(&self) -> WallView<'_> {
+        self.wall_view()
+    }
+
+    fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {
+        Ok(self.set_load(load)?)
+    }
+
+    fn advance(&mut self, dt: f64) -> Result<usize, CouplingError> {
+        Ok(Solid::advance(self, dt)?)
+    }
+}

@@ -1,0 +1,109 @@
+//! `vaso run` with a wall that deforms: what it writes, what is refused, and that a rigid one has none of it.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::Path;
+use vaso_io::SeriesReader;
+
+/// A folder with the pipe case.
+fn pipe() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/pipe");
+    for file in ["case.toml", "pipe.stl"] {
+        std::fs::copy(cases.join(file), folder.path().join(file)).expect("cases can be copied");
+    }
+    folder
+}
+
+/// A short run at a coarse spacing, with more settings.
+fn run(folder: &Path, out: &str, settings: &[&str]) -> Command {
+    let mut vaso = Command::new(env!("CARGO_BIN_EXE_vaso"));
+    vaso.arg("run").arg(folder).args(["--quiet", "--set", "particles.spacing=0.9 mm"]);
+    vaso.args([
+        "--set",
+        "run.end_time=3 ms",
+        "--set",
+        "output.every=1 ms",
+        "--set",
+        "opening.inlet.ramp=2 ms",
+    ]);
+    for setting in settings {
+        vaso.args(["--set", setting]);
+    }
+    vaso.arg("--out").arg(folder.join(out));
+    vaso
+}
+
+const SOLID: [&str; 4] =
+    ["wall.model=solid", "wall.thickness=1.8 mm", "wall.young_modulus=0.5 MPa", "wall.spacing=0.9 mm"];
+
+fn summary(mut command: Command) -> Value {
+    let output = command.arg("--json").output().expect("the program can be started");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("standard output is JSON and nothing else")
+}
+
+fn effect<'a>(summary: &'a Value, name: &str) -> &'a Value {
+    let effects = summary["effects"].as_array().expect("effects are listed");
+    effects.iter().find(|e| e["name"] == name).unwrap_or_else(|| panic!("{name} is listed"))
+}
+
+#[test]
+fn a_wall_that_deforms_is_told_of_with_its_energies() {
+    let folder = pipe();
+    let told = summary(run(folder.path(), "solid", &SOLID));
+    let solid = &told["solid"];
+    let value = |name: &str| solid[name].as_f64().unwrap_or_else(|| panic!("{name} in {solid}"));
+    assert!(value("max_displacement_m") > 0.0 && value("strain_j") > 0.0 && value("blood_work_j") > 0.0);
+    // Work of the loads, by the wall's own account, is that of the blood, by the coupling's, but for the size of the step.
+    assert!((value("load_work_j") / value("blood_work_j") - 1.0).abs() < 0.05, "{solid}");
+    assert!(value("balance_j").abs() < 0.05 * value("load_work_j"), "{solid}");
+    assert!(told["steps"]["solid"].as_u64() >= told["steps"]["acoustic"].as_u64());
+    assert_eq!(told["stability"]["escaped_particles"], 0);
+    for name in ["wall.solid", "wall.coupling"] {
+        let effect = effect(&told, name);
+        assert!(
+            effect["on"] == true
+                && effect["bytes"].as_u64() > Some(0)
+                && effect["seconds"].as_f64() > Some(0.0)
+        );
+    }
+    assert!(told["warnings"].to_string().contains("the wall has 2.0 layers"), "{}", told["warnings"]);
+    let series = SeriesReader::open(&folder.path().join("solid/wall.vtkhdf")).expect("the wall is there");
+    let names: Vec<&str> = series.info().fields.iter().map(|f| f.name.as_str()).collect();
+    for name in ["Displacement", "Velocity", "VonMises", "CauchyStressDiagonal", "PrincipalStretches"] {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+}
+
+#[test]
+fn a_rigid_wall_has_nothing_of_a_solid() {
+    let folder = pipe();
+    let told = summary(run(folder.path(), "rigid", &[]));
+    assert_eq!((&told["solid"], &told["steps"]["solid"]), (&Value::Null, &0.into()));
+    for name in ["wall.solid", "wall.coupling"] {
+        let effect = effect(&told, name);
+        assert!(
+            effect["on"] == false && effect["bytes"].is_null() && effect["seconds"].is_null(),
+            "{effect}"
+        );
+    }
+    assert!(!folder.path().join("rigid/wall.vtkhdf").exists());
+}
+
+#[test]
+fn what_walls_that_deform_cannot_do_yet_is_refused_by_name() {
+    let folder = pipe();
+    let refused = |settings: &[&str], words: &[&str]| {
+        let all: Vec<&str> = SOLID.iter().chain(settings).copied().collect();
+        let output = run(folder.path(), "refused", &all).output().expect("the program can be started");
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        for word in words {
+            assert!(text.contains(word), "\"{word}\" is not in {text}");
+        }
+    };
+    refused(&["output.fields=[\"wss\"]"], &["`output.fields`", "wss"]);
+    refused(&["wall.spacing=1.2 mm"], &["`wall.spacing`", "at most"]);
+    refused(&["wall.open_ends=closest-cap"], &["`wall.open_ends`", "collar"]);
+}

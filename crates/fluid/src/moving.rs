@@ -1,0 +1,288 @@
+//! A wall that moves: what the fluid sees of it anew, and the forces it hands back.
+//!
+//! Positions are taken once an advective step ([`Fluid::take_wall`]), velocities after each acoustic step of the wall
+//! ([`Fluid::set_wall_velocity`]). A fluid whose wall is at rest has none of this.
+
+use crate::fluid::{Fluid, Frozen, first_of, numbered};
+use crate::law::moving::{self, AcceleratedWallPressure, SurfaceDisplacement, WallVelocity};
+use crate::numbers::Numbers;
+use glam::DVec3;
+use rayon::prelude::*;
+use vaso_kernels::{CHUNK, Gather, Real, Records, Store, sweep};
+use vaso_particles::WallView;
+
+/// State of a wall that moves.
+pub(crate) struct Moving<R> {
+    /// Place in the view of each wall particle within reach.
+    pub(crate) source: Vec<u32>,
+    /// Where the particles of the view were when the distance to the wall was measured \[m\].
+    origin: Vec<DVec3>,
+    /// Acceleration of each wall particle within reach \[m/s^2\].
+    acceleration: Vec<DVec3>,
+    /// Displacement and depth \[supports\] of the wall within reach.
+    displaced: Records<R>,
+    /// Displacement of the lumen surface near each fluid particle \[m\].
+    pub(crate) displacement: Vec<DVec3>,
+    /// Velocity of the wall near each fluid particle \[m/s\].
+    pub(crate) velocity: Vec<DVec3>,
+    /// `sum V v_a . grad W` at each fluid particle, with the other sign \[1/s\].
+    flux: Vec<f64>,
+    /// Bend of the velocity near the wall \[1/(m s)\], for the viscous force on it.
+    pub(crate) bend: Vec<DVec3>,
+    /// Correction matrices of the fluid, which the pair laws of the wall read.
+    pub(crate) correction: Records<R>,
+    /// Fluid as the wall sees it: its scalar is what the wall gets from it.
+    pub(crate) seen: Records<R>,
+}
+
+/// How a wall enters the acoustic step, at rest or in motion.
+pub(crate) trait Wall: Sync {
+    /// Force of the dissipation at the wall on particle `i` of velocity `v` \[m/s\], by volume \[N/m^3\].
+    fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3;
+    /// Divergence between particle `i` and the wall, negative where they part \[1/s\].
+    fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64;
+}
+
+/// A wall at rest.
+pub(crate) struct AtRest;
+
+impl Wall for AtRest {
+    #[inline(always)]
+    fn dissipation(&self, _: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3 {
+        let impedance = numbers.rest_density * numbers.sound_speed;
+        // Closing speed of the particle and its mirror image behind the wall.
+        let closing = (-2.0 * v.dot(frozen.wall_normal)).max(0.0);
+        let limited = (numbers.dissipation_limiter * closing / numbers.sound_speed).min(1.0);
+        frozen.wall_area * limited * impedance * closing * frozen.wall_normal
+    }
+
+    #[inline(always)]
+    fn convergence(&self, _: usize, v: DVec3, frozen: &Frozen) -> f64 {
+        // The mirrored velocity doubles the part of the wall. Sliding along it compresses nothing.
+        let normal = frozen.wall_normal;
+        2.0 * v.dot(normal) * normal.dot(frozen.wall_gradient)
+    }
+}
+
+impl<R> Moving<R> {
+    /// Takes accelerations in the order of the view.
+    fn accelerate(&mut self, acceleration: &[DVec3]) {
+        self.acceleration.clear();
+        if !acceleration.is_empty() {
+            self.acceleration.extend(self.source.iter().map(|&a| acceleration[a as usize]));
+        }
+    }
+}
+
+impl<R: Real> Wall for Moving<R> {
+    #[inline(always)]
+    fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3 {
+        let pressure = closing_pressure(v - self.velocity[i], frozen, numbers);
+        -pressure * frozen.correction.mul(frozen.wall_gradient)
+    }
+
+    #[inline(always)]
+    fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
+        let (normal, wall) = (frozen.wall_normal, self.velocity[i]);
+        let to_wall = (v - wall).dot(normal) * normal.dot(frozen.wall_gradient);
+        // What the wall does beside its mean velocity here: it is compressed or bends.
+        2.0 * (to_wall + wall.dot(frozen.wall_gradient) + self.flux[i])
+    }
+}
+
+/// Pressure of the dissipation between a particle and its mirror image behind a wall, from its velocity relative to the wall
+/// \[m/s\]. As a pressure it has a pair for each wall particle, so that the wall gets back what it gives.
+pub(crate) fn closing_pressure(relative: DVec3, frozen: &Frozen, numbers: &Numbers) -> f64 {
+    let closing = (-2.0 * relative.dot(frozen.wall_normal)).max(0.0);
+    let limited = (numbers.dissipation_limiter * closing / numbers.sound_speed).min(1.0);
+    limited * numbers.rest_density * numbers.sound_speed * closing
+}
+
+impl<R: Real> Fluid<R> {
+    /// Lets the wall move from now on. `view` is the wall as it was when the distance to it was measured, in the order of all
+    /// views to come.
+    ///
+    /// # Panics
+    /// If the lists of the view differ in length.
+    pub fn release_wall(&mut self, view: &WallView) {
+        let n = view.position.len();
+        assert!(
+            view.velocity.len() == n && view.depth.len() == n && view.volume.len() == n,
+            "an entry a particle"
+        );
+        self.moving = Some(Box::new(Moving {
+            source: Vec::new(),
+            origin: view.position.to_vec(),
+            acceleration: Vec::new(),
+            displaced: Records::default(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            flux: Vec::new(),
+            bend: Vec::new(),
+            correction: Records::default(),
+            seen: Records::default(),
+        }));
+        self.take_wall(view, &[]);
+    }
+
+    /// Takes the wall anew before [`Self::search`]: positions, velocities and, in the same order, accelerations \[m/s^2\]. The
+    /// latter may be empty, for a wall that is not accelerated.
+    ///
+    /// # Panics
+    /// Without [`Self::release_wall`] before it, or if lists differ in length.
+    pub fn take_wall(&mut self, view: &WallView, acceleration: &[DVec3]) {
+        let moving = self.moving.as_mut().expect("the wall has been released");
+        assert!(view.position.len() == moving.origin.len(), "the particles the wall was released with");
+        assert!(acceleration.is_empty() || acceleration.len() == moving.origin.len(), "an entry a particle");
+        moving.source = self.wall.arrange(view, &self.frame);
+        let support = self.frame.support();
+        let Moving { source, origin, displaced, .. } = &mut **moving;
+        displaced.resize(source.len());
+        let records = self.wall.kinematic.as_slice();
+        displaced.fill(|k| {
+            let a = source[k] as usize;
+            let u = view.position[a] - origin[a];
+            let mut record = records[k];
+            (record[4], record[5], record[6]) = (R::pack(u.x), R::pack(u.y), R::pack(u.z));
+            record[7] = R::pack(view.depth[a] / support);
+            record
+        });
+        moving.accelerate(acceleration);
+    }
+
+    /// Gives the wall its velocities \[m/s\] and accelerations \[m/s^2\] after an acoustic step of `dt` \[s\], in the order of its
+    /// view. As for [`Self::take_wall`] there may be no accelerations.
+    pub fn set_wall_velocity(&mut self, velocity: &[DVec3], acceleration: &[DVec3], dt: f64) {
+        let Some(moving) = &mut self.moving else { return };
+        moving.accelerate(acceleration);
+        let source = &moving.source;
+        self.wall.dynamic.as_mut_slice().par_iter_mut().zip(source).with_min_len(1024).for_each(
+            |(record, &a)| {
+                let v = velocity[a as usize];
+                (record[4], record[5], record[6]) = (R::pack(v.x), R::pack(v.y), R::pack(v.z));
+            },
+        );
+        self.see_wall_velocity();
+        if let Some(moving) = &mut self.moving {
+            let Moving { displacement, velocity, .. } = &mut **moving;
+            displacement.par_iter_mut().zip(velocity).with_min_len(4096).for_each(|(u, v)| *u += dt * *v);
+        }
+    }
+
+    /// Finds displacement and velocity of the wall near each particle, after the rows have been found.
+    pub(crate) fn see_wall(&mut self) {
+        let n = self.state.len();
+        let mut current = std::mem::take(&mut self.current);
+        current.resize(n);
+        // Volumes and the like are filled in by the summation.
+        current.fill(|i| self.record(i, 0.0, 0.0));
+        self.current = current;
+        let Some(moving) = &mut self.moving else { return };
+        moving.displacement.clear();
+        moving.displacement.resize(n, DVec3::ZERO);
+        let gather = Gather {
+            frame: &self.frame,
+            own: &self.current,
+            other: &moving.displaced,
+            own_second: None,
+            other_second: None,
+        };
+        let isa = self.isa;
+        (moving.displacement.par_chunks_mut(CHUNK), self.wall.fluid_rows.chunks())
+            .into_par_iter()
+            .enumerate()
+            .filter(|(_, (_, row))| !row.has_no_pairs())
+            .for_each(|(c, (displacement, row))| {
+                let mut sums = [[0.0; moving::DISPLACEMENT_SUMS]; CHUNK];
+                sweep(isa, &SurfaceDisplacement, &gather, numbered(row, c), Store::None, &mut sums);
+                for (u, sums) in displacement.iter_mut().zip(&sums) {
+                    *u = DVec3::from_array(moving::surface_displacement(sums));
+                }
+            });
+        self.see_wall_velocity();
+    }
+
+    fn see_wall_velocity(&mut self) {
+        let n = self.state.len();
+        let gradient = self.kernel.gradient_scale();
+        let Some(moving) = &mut self.moving else { return };
+        moving.velocity.clear();
+        moving.velocity.resize(n, DVec3::ZERO);
+        moving.flux.clear();
+        moving.flux.resize(n, 0.0);
+        let gather = Gather {
+            frame: &self.frame,
+            own: &self.current,
+            other: &self.wall.dynamic,
+            own_second: None,
+            other_second: None,
+        };
+        let isa = self.isa;
+        (
+            moving.velocity.par_chunks_mut(CHUNK),
+            moving.flux.par_chunks_mut(CHUNK),
+            self.wall.fluid_rows.chunks(),
+        )
+            .into_par_iter()
+            .enumerate()
+            .filter(|(_, (_, _, row))| !row.has_no_pairs())
+            .for_each(|(c, (velocity, flux, row))| {
+                let mut sums = [[0.0; moving::VELOCITY_SUMS]; CHUNK];
+                sweep(isa, &WallVelocity, &gather, numbered(row, c), Store::None, &mut sums);
+                for (k, [divergence, weight, x, y, z]) in sums.into_iter().enumerate().take(velocity.len()) {
+                    flux[k] = gradient * divergence;
+                    if weight > 0.0 {
+                        velocity[k] = DVec3::new(x, y, z) / weight;
+                    }
+                }
+            });
+    }
+
+    /// Pressure of the particles of a wall that moves: the kernel mean of that of the fluid, continued by the acceleration of the
+    /// wall (Adami, Hu and Adams 2012, eq. 27).
+    pub(crate) fn moving_wall_pressure(&mut self) {
+        let (isa, frame) = (self.isa, &self.frame);
+        let wall = &mut self.wall;
+        let Some(moving) = &self.moving else { return };
+        let acceleration = &moving.acceleration;
+        let per_separation = self.numbers.rest_density * frame.support();
+        let gather = Gather {
+            frame,
+            own: &wall.kinematic,
+            other: &self.current,
+            own_second: None,
+            other_second: None,
+        };
+        wall.dynamic
+            .as_mut_slice()
+            .par_chunks_mut(CHUNK)
+            .zip(wall.wall_rows.chunks())
+            .enumerate()
+            .filter(|(_, (_, row))| !row.has_no_pairs())
+            .for_each(|(c, (records, row))| {
+                let mut sums = [[0.0; 5]; CHUNK];
+                sweep(isa, &AcceleratedWallPressure, &gather, numbered(row, c), Store::None, &mut sums);
+                for (k, (record, [weighted, weight, x, y, z])) in records.iter_mut().zip(sums).enumerate() {
+                    let a = acceleration.get(first_of(c) + k).copied().unwrap_or_default();
+                    let continued = weighted - per_separation * a.dot(DVec3::new(x, y, z));
+                    record[7] = R::pack(if weight > 0.0 { continued / weight } else { 0.0 });
+                }
+            });
+    }
+
+    /// Bytes held for a wall that moves.
+    pub(crate) fn moving_bytes(&self) -> usize {
+        let Some(m) = &self.moving else { return 0 };
+        let vectors = m.origin.capacity()
+            + m.acceleration.capacity()
+            + m.displacement.capacity()
+            + m.velocity.capacity()
+            + m.bend.capacity();
+        size_of::<DVec3>() * vectors
+            + 8 * m.flux.capacity()
+            + 4 * m.source.capacity()
+            + m.displaced.bytes()
+            + m.correction.bytes()
+            + m.seen.bytes()
+    }
+}

@@ -1,0 +1,126 @@
+//! Forces on a wall that moves: those on the fluid, pair by pair, with the other sign.
+
+use crate::fluid::{Fluid, numbered};
+use crate::law::moving::{BendOnWall, DragOnWall, LeanOnWall, PressureOnWall};
+use crate::moving::{Moving, closing_pressure};
+use crate::rheology::shear_rate;
+use crate::viscosity::scaled_strain;
+use glam::DVec3;
+use rayon::prelude::*;
+use vaso_kernels::{CHUNK, Gather, PairLaw, Real, Records, Store, sweep};
+
+impl<R: Real> Fluid<R> {
+    /// Keeps what the forces on the wall need from the viscous sweep; `bend` stands in the velocity gradient until that is found.
+    pub(crate) fn note_for_wall(&mut self) {
+        let Some(moving) = &mut self.moving else { return };
+        moving.bend.clear();
+        moving.bend.extend(self.slope.iter().map(|s| s.x_axis));
+        moving.correction.resize(self.state.len());
+        let second = self.second.as_slice();
+        moving.correction.fill(|i| second[i]);
+    }
+
+    /// Writes the force of the pressure and its dissipation on each particle of the wall \[N\], in the order of its view: that of
+    /// the last [`Self::kick`] on the fluid, pair by pair, with the other sign. Call it before [`Self::continuity`].
+    pub fn pressure_on_wall(&mut self, force: &mut [DVec3]) {
+        let Some(mut moving) = self.moving.take() else { return };
+        let numbers = &self.numbers;
+        let (state, frozen, current) = (&self.state, &self.frozen, self.current.as_slice());
+        let near = &moving.velocity;
+        moving.seen.resize(state.len());
+        moving.seen.fill(|i| {
+            let mut record = current[i];
+            let change = state.density_change[i];
+            // The kick has changed the velocity, not the record.
+            let before = DVec3::new(record[4].widen(), record[5].widen(), record[6].widen());
+            let dissipation = closing_pressure(before - near[i], &frozen[i], numbers);
+            record[3] = R::pack(state.mass[i] / (numbers.rest_density + change));
+            record[7] = R::pack(numbers.pressure(change) + dissipation);
+            record
+        });
+        let gradient = self.kernel.gradient_scale();
+        let sums = self.gather_on_wall(&PressureOnWall, &self.wall.dynamic, &moving);
+        force.fill(DVec3::ZERO);
+        let records = self.wall.dynamic.as_slice();
+        for ((&a, record), sum) in moving.source.iter().zip(records).zip(&sums) {
+            force[a as usize] = gradient * record[3].widen() * *sum;
+        }
+        self.moving = Some(moving);
+    }
+
+    /// Writes the viscous force on each particle of the wall \[N\], in the order of its view: that of [`Self::viscosity`] on the
+    /// fluid, pair by pair, with the other sign. It holds for all acoustic steps of the advective step.
+    pub fn viscous_force_on_wall(&mut self, force: &mut [DVec3]) {
+        let Some(mut moving) = self.moving.take() else { return };
+        let support = self.kernel.support();
+        let (state, frozen, current) = (&self.state, &self.frozen, self.current.as_slice());
+        let (numbers, slope, zone_of) = (&self.numbers, &self.slope, &self.zone_of);
+        let viscous_volume = |i: usize| {
+            let mu = numbers
+                .rheology
+                .map_or(numbers.viscosity, |law| law.viscosity(shear_rate(&scaled_strain(&slope[i], 1.0))));
+            mu * state.mass[i] / (numbers.rest_density + state.density_change[i])
+        };
+        let own = &self.wall.kinematic;
+        moving.seen.resize(state.len());
+        moving.seen.fill(|i| {
+            let mut record = current[i];
+            record[3] = R::pack(viscous_volume(i));
+            record[7] = R::pack(frozen[i].inverse_distance);
+            record
+        });
+        let mut drag = self.gather_on_wall(&DragOnWall, own, &moving);
+        let bend = &moving.bend;
+        show(&mut moving.seen, |i| (bend[i], frozen[i].wall_distance()));
+        let bent = self.gather_on_wall(&BendOnWall, own, &moving);
+        drag.iter_mut().zip(&bent).for_each(|(drag, bent)| *drag -= *bent);
+        for axis in 0..3 {
+            // Near caps what a linear velocity adds is left in, see `viscosity`.
+            let column = |i: usize| if zone_of[i] == 0 { slope[i].col(axis) } else { DVec3::ZERO };
+            show(&mut moving.seen, |i| (column(i), 0.0));
+            let lean = self.gather_on_wall(&LeanOnWall, own, &moving);
+            drag.iter_mut().zip(&lean).for_each(|(drag, lean)| drag[axis] += support * lean.x);
+        }
+        let scale = self.kernel.gradient_scale() / support;
+        force.fill(DVec3::ZERO);
+        for ((&a, record), drag) in moving.source.iter().zip(own.as_slice()).zip(&drag) {
+            force[a as usize] = scale * record[3].widen() * *drag;
+        }
+        self.moving = Some(moving);
+    }
+
+    /// Sums of a law over the rows of the wall, among the fluid as it is seen.
+    fn gather_on_wall(&self, law: &impl PairLaw<R, 3>, own: &Records<R>, moving: &Moving<R>) -> Vec<DVec3> {
+        let mut result = vec![DVec3::ZERO; self.wall.len()];
+        let isa = self.isa;
+        let gather = Gather {
+            frame: &self.frame,
+            own,
+            other: &moving.seen,
+            own_second: None,
+            other_second: Some(&moving.correction),
+        };
+        result
+            .par_chunks_mut(CHUNK)
+            .zip(self.wall.wall_rows.chunks())
+            .enumerate()
+            .filter(|(_, (_, row))| !row.has_no_pairs())
+            .for_each(|(c, (result, row))| {
+                let mut sums = [[0.0; 3]; CHUNK];
+                sweep(isa, law, &gather, numbered(row, c), Store::None, &mut sums);
+                for (sum, lanes) in result.iter_mut().zip(sums) {
+                    *sum = DVec3::from_array(lanes);
+                }
+            });
+        result
+    }
+}
+
+/// Lets the wall see other vectors and scalars of the fluid.
+fn show<R: Real>(seen: &mut Records<R>, of: impl Fn(usize) -> (DVec3, f64) + Sync) {
+    seen.as_mut_slice().par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, record)| {
+        let (vector, scalar) = of(i);
+        (record[4], record[5], record[6]) = (R::pack(vector.x), R::pack(vector.y), R::pack(vector.z));
+        record[7] = R::pack(scalar);
+    });
+}
