@@ -122,7 +122,7 @@ fn by_formula(across: f64) -> [[f64; 2]; 3] {
 /// Drag over the exact one as the fluid finds it.
 fn by_fluid(across: f64) -> [f64; 2] {
     let (case, plan, bodies) = bodies(across);
-    let mut flow = world::build_flow::<f64>(&case, &plan, bodies);
+    let mut flow = world::build_flow::<f64>(&case, &plan, bodies).expect("a rigid wall is always built");
     let fluid = &mut flow.fluid;
     for i in 0..fluid.state.len() {
         fluid.state.velocity[i] = velocity(fluid.state.position[i]) * DVec3::Z;

@@ -92,10 +92,13 @@ impl Openings {
     pub fn tie(&self, state: &mut FluidState, t: f64) {
         let reference = self.reference_pressure(t);
         let compliance = self.numbers.sound_speed.powi(-2);
-        let imposed: Vec<Option<f64>> =
-            (0..self.ports.len()).map(|k| Some(compliance * (self.pressure_value(k, t)? - reference))).collect();
+        let imposed: Vec<Option<f64>> = (0..self.ports.len())
+            .map(|k| Some(compliance * (self.pressure_value(k, t)? - reference)))
+            .collect();
         for zone in &self.zones {
-            let (Some(density_change), true) = (imposed[zone.opening as usize], zone.in_buffer) else { continue };
+            let (Some(density_change), true) = (imposed[zone.opening as usize], zone.in_buffer) else {
+                continue;
+            };
             let share = TIE * (1.0 - zone.depth / self.spacing).clamp(0.0, 1.0);
             let own = &mut state.density_change[zone.particle as usize];
             *own += share * (density_change - *own);
