@@ -76,7 +76,7 @@ fn imbalance(rheology: Option<Rheology>, is_alone: bool) -> f64 {
     let mut state = FluidState::at_rest(fluid, &vec![SPACING.powi(3); n], numbers.rest_density);
     for i in 0..state.len() {
         state.velocity[i] = 0.2 * random();
-        state.density_change[i] = 5.0 * random().x;
+        state.density_change[i] = 2.0 * random().x;
     }
     let bounds = (DVec3::splat(-2.0 * HALF), DVec3::splat(2.0 * HALF));
     let view = vaso_coupling::MovingWall::view(&structure);
