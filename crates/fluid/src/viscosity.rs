@@ -84,7 +84,7 @@ impl<R: Real> Fluid<R> {
                     set_gradient_sums(frozen, neighbours);
                     slopes[k] = slope;
                     if is_inner {
-                        frozen.false_convergence = false_convergence(&slope, &frozen.fluid_moment);
+                        frozen.false_convergence = false_convergence(&slope, frozen);
                     }
                 }
             });
@@ -205,12 +205,23 @@ pub(crate) fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
     [sym(0, 0), sym(1, 1), sym(2, 2), sym(0, 1), sym(0, 2), sym(1, 2)]
 }
 
-/// Convergence \[1/s\] that the uncorrected sum over fluid neighbours of moment `m` finds in the part of a velocity gradient that changes
-/// no volume.
-fn false_convergence(g: &DMat3, Sym3(m): &Sym3) -> f64 {
-    let d = scaled_strain(g, 1.0);
-    let third = (d[0] + d[1] + d[2]) / 3.0;
-    let normal: f64 = (0..3).map(|q| (d[q] - third) * m[q]).sum();
-    let shear: f64 = (3..6).map(|q| d[q] * m[q]).sum();
+/// Convergence \[1/s\] that the uncorrected sum over fluid neighbours finds in the part of a velocity gradient that changes no volume.
+///
+/// Within reach of the wall, that is what shears along it and in its plane: a flow towards the wall converges among the fluid,
+/// and the sum over the wall takes it back.
+fn false_convergence(g: &DMat3, frozen: &Frozen) -> f64 {
+    let Sym3(m) = &frozen.fluid_moment;
+    let mut d = Sym3(scaled_strain(g, 1.0));
+    let trace = d.0[0] + d.0[1] + d.0[2];
+    let (mut isotropic, n) = (trace / 3.0, frozen.wall_normal);
+    if n != DVec3::ZERO {
+        let to_wall = n.dot(d.mul(n));
+        isotropic = 0.5 * (trace - to_wall);
+        let along_normal = to_wall - isotropic;
+        let squares = [n.x * n.x, n.y * n.y, n.z * n.z, n.x * n.y, n.x * n.z, n.y * n.z];
+        d.0.iter_mut().zip(squares).for_each(|(d, square)| *d -= along_normal * square);
+    }
+    let normal: f64 = (0..3).map(|q| (d.0[q] - isotropic) * m[q]).sum();
+    let shear: f64 = (3..6).map(|q| d.0[q] * m[q]).sum();
     -(normal + 2.0 * shear)
 }
