@@ -58,9 +58,8 @@ impl Wall for AtRest {
 
     #[inline(always)]
     fn convergence(&self, _: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        // The mirrored velocity doubles the part of the wall. Sliding along it compresses nothing.
-        let normal = frozen.wall_normal;
-        2.0 * v.dot(normal) * normal.dot(frozen.wall_gradient)
+        // The mirrored velocity doubles the part of the wall.
+        2.0 * v.dot(frozen.wall_gradient)
     }
 }
 
@@ -83,10 +82,7 @@ impl<R: Real> Wall for Moving<R> {
 
     #[inline(always)]
     fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        let (normal, wall) = (frozen.wall_normal, self.velocity[i]);
-        let to_wall = (v - wall).dot(normal) * normal.dot(frozen.wall_gradient);
-        // What the wall does beside its mean velocity here: it is compressed or bends.
-        2.0 * (to_wall + wall.dot(frozen.wall_gradient) + self.flux[i])
+        2.0 * (v.dot(frozen.wall_gradient) + self.flux[i])
     }
 }
 
