@@ -19,9 +19,7 @@ pub const CASE: Case = Case {
     remark: "Particles belong to the vessel, so all four start from the same ones up to rounding, that of the surface file \
              included, which a metre from the origin is 6e-8 m, or 2e-4 spacings. It grows in any flow of particles until single \
              ones have nothing in common; means then differ by what is left of the particle noise, one or two tenths of a per \
-             cent. The change of the unit alone leaves them within 0.02 %. What does depend on the frame is the speed the \
-             planner expects in the narrowest section, which is counted on a grid along the axes of space: sound speed and \
-             steps of the turned pipe would be 16 % others.",
+             cent. The change of the unit alone leaves them within 0.02 %.",
     quick: Some(|| run(10.0)),
     full: || run(16.0),
 };
