@@ -69,14 +69,14 @@ fn imbalance(rheology: Option<Rheology>, is_alone: bool) -> f64 {
     assert!(wall.len() > 1000, "{} particles in the wall", wall.len());
     let spin = move |x: DVec3| 0.05 * DVec3::new(3.0 * x.y - x.z, x.z + x.x, 2.0 * x.y - x.x) / SPACING;
     let structure = Prescribed::new(wall, depth, volume, move |x: DVec3, t| (x + t * spin(x), spin(x)));
-    let mut numbers = Numbers::new(1050.0, 3.5e-3, 0.5, SPACING);
+    let mut numbers = Numbers::new(1050.0, 7e-3, 0.5, SPACING);
     // Mass over density is then the volume in the records to the last bit, and all pairs of the fluid cancel.
     numbers.density_blend = 0.0;
     numbers.rheology = rheology;
     let mut state = FluidState::at_rest(fluid, &vec![SPACING.powi(3); n], numbers.rest_density);
     for i in 0..state.len() {
         state.velocity[i] = 0.2 * random();
-        state.density_change[i] = 2.0 * random().x;
+        state.density_change[i] = 5.0 * random().x;
     }
     let bounds = (DVec3::splat(-2.0 * HALF), DVec3::splat(2.0 * HALF));
     let view = vaso_coupling::MovingWall::view(&structure);
