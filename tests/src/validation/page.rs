@@ -113,6 +113,7 @@ pub fn render(results: &Results) -> String {
 fn is_missed(figure: &Figure) -> bool {
     match figure.tolerance {
         Tolerance::Missed { asked, .. } => figure.error.abs() > asked,
+        Tolerance::TooLow { asked, .. } => figure.error < asked,
         Tolerance::Held(_) => false,
         _ => !figure.holds(),
     }
@@ -148,6 +149,10 @@ fn judged(figure: &Figure) -> (String, &'static str) {
             (format!("at least {}", bound(asked)), if figure.holds() { "met" } else { "**missed**" })
         }
         Tolerance::Held(held) => (format!("({})", bound(held)), ""),
+        Tolerance::TooLow { asked, held } => (
+            format!("at least {asked} (held at {held})"),
+            if is_missed(figure) { "**missed**" } else { "met" },
+        ),
         Tolerance::Missed { asked, held } => {
             (format!("{} (held at {})", bound(asked), bound(held)), "**missed**")
         }
