@@ -5,8 +5,9 @@
 //! crosses the cap is removed. Both happen at every opening, so flow may reverse.
 
 use crate::openings::Openings;
-use crate::port::{Condition, Port};
+use crate::port::{Passed, Port};
 use crate::profile::Inlet;
+use crate::room::Room;
 use glam::DVec3;
 use num_complex::Complex64;
 use rayon::prelude::*;
@@ -17,6 +18,18 @@ use vaso_particles::visit;
 /// particle moving to and fro would be copied at every turn, and none at all while the label is
 /// taken away at the edge.
 const FRINGE: f64 = 0.5;
+
+/// What a particle that has passed the end of a buffer leaves to be put in behind its cap.
+#[derive(Clone, Copy)]
+struct Wish {
+    /// The particle, which the new one is a copy of.
+    like: usize,
+    /// Its own place, set back by the length of the buffer \[m\].
+    place: DVec3,
+    /// Its velocity out of the vessel \[m/s\].
+    outward: f64,
+}
+
 impl Openings {
     /// Labels the particles in the buffers at the start of a run.
     pub fn start(&mut self, state: &mut FluidState) {
@@ -31,11 +44,18 @@ impl Openings {
         let length = self.buffer_length();
         let fringe = FRINGE * self.spacing;
         let reference = self.reference_pressure(t);
+        let mut wishes: Vec<Vec<Wish>> = vec![Vec::new(); self.ports.len()];
         for i in 0..state.len() {
             let Ok(k) = usize::try_from(state.opening[i]) else { continue };
-            let imposed = self.pressure_value(k, t);
             let port = &mut self.ports[k];
             if port.opening.depth(state.position[i]) <= length + fringe {
+                continue;
+            }
+            let place = state.position[i] + length * port.opening.normal;
+            if port.condition.sets_pressure() {
+                // It moves on; what comes in for it is put in below.
+                state.opening[i] = FluidState::NO_OPENING;
+                wishes[k].push(Wish { like: i, place, outward: state.velocity[i].dot(port.opening.normal) });
                 continue;
             }
             visit::append_copy(state, i);
@@ -44,12 +64,15 @@ impl Openings {
             state.id[copy] = state.id[i];
             state.id[i] = self.next_id;
             self.next_id += 1;
-            state.position[i] += length * port.opening.normal;
-            if let Some(pressure) = imposed {
-                state.density_change[i] = (pressure - reference) / (sound_speed * sound_speed);
-            }
+            state.position[i] = place;
             port.counters.injected += 1;
             port.counters.outflow_volume -= state.mass[i] / rest_density;
+        }
+        for (k, wishes) in wishes.iter().enumerate() {
+            if let Some(pressure) = self.pressure_value(k, t) {
+                let density_change = (pressure - reference) / (sound_speed * sound_speed);
+                self.let_in(k, wishes, density_change, state);
+            }
         }
         let mut leaving: Vec<(usize, usize)> = {
             let this = &*self;
@@ -70,6 +93,41 @@ impl Openings {
             visit::swap_remove(state, i);
         }
         self.label(state);
+    }
+
+    /// Puts particles in through pressure opening `k` for those that have passed the end of its buffer, and for those of earlier steps
+    /// that had no room, as far as there is room now.
+    fn let_in(&mut self, k: usize, wishes: &[Wish], density_change: f64, state: &mut FluidState) {
+        let port = &mut self.ports[k];
+        let owed = port.owed as usize + wishes.len();
+        if owed == 0 {
+            return;
+        }
+        let Some(like) =
+            wishes.first().map(|w| w.like).or_else(|| state.opening.iter().position(|&o| o == k as i32))
+        else {
+            return;
+        };
+        let mut room = Room::new(&self.places[k], &port.opening, k as i32, self.spacing, state);
+        let wanted = wishes.iter().map(|w| (w.like, Some((w.place, w.outward))));
+        let older = (wishes.len()..owed).map(|_| (like, None));
+        port.owed = 0;
+        for (like, own) in wanted.chain(older) {
+            let Some((place, outward)) = room.take(own) else {
+                port.owed += 1;
+                continue;
+            };
+            visit::append_copy(state, like);
+            let new = state.len() - 1;
+            state.opening[new] = k as i32;
+            state.id[new] = self.next_id;
+            self.next_id += 1;
+            state.position[new] = place;
+            state.velocity[new] = outward * port.opening.normal;
+            state.density_change[new] = density_change;
+            port.counters.injected += 1;
+            port.counters.outflow_volume -= state.mass[new] / self.numbers.rest_density;
+        }
     }
 
     /// Opening through which a particle at `x` has left, if any.
@@ -103,7 +161,7 @@ impl Openings {
             });
     }
 
-    /// Finds the particles near caps, after the fluid has been sorted.
+    /// Finds the particles near caps, after the fluid has been sorted; an advective step begins.
     pub fn locate(&mut self, state: &FluidState) {
         let length = self.buffer_length();
         // Particles in the fringe still carry the label of the buffer, and its flow.
@@ -122,19 +180,22 @@ impl Openings {
                     (lateral < spacing).then_some((lateral, k, s))
                 });
                 let (_, k, s) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
+                // Where a particle comes in and counts for nothing yet, while its copy counts in full.
+                let first = if ports[k].condition.sets_pressure() { 0.0 } else { FRINGE * spacing };
                 Some(CapZone {
                     particle: i as u32,
                     opening: k as u32,
                     normal: ports[k].opening.normal,
                     depth: s,
                     // Whatever the buffer owns moves as asked, see `apply`.
-                    is_imposed: state.opening[i] == k as i32
-                        && matches!(ports[k].condition, Condition::Velocity { .. }),
+                    is_imposed: state.opening[i] == k as i32 && !ports[k].condition.sets_pressure(),
                     in_buffer: s <= length,
+                    share: ((s - first) / length).clamp(0.0, 1.0),
                 })
             },
         ));
         self.shape_flow(state);
+        self.ports.iter_mut().for_each(|port| port.passed = Passed::default());
     }
 
     /// Takes the profiles at the particles, and scales them: the flow that is injected is that of the labelled particles,

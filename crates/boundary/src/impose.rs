@@ -2,7 +2,7 @@
 
 use crate::openings::Openings;
 use crate::outlet::Seen;
-use crate::port::{Condition, Reading};
+use crate::port::{Condition, Passed, Reading};
 use crate::profile::Amplitudes;
 use num_complex::Complex64;
 use vaso_fluid::{Fluid, FluidState, Real};
@@ -62,15 +62,22 @@ impl Openings {
                 top = top.max(velocity.length());
             }
             // The fringe counts: flow that comes in keeps the particles of the buffer half a spacing further in.
-            if port.outlet.is_some() && owned {
-                let volume = fluid.state.mass[i] / rest_density;
+            if owned {
+                let (mass, velocity) = (fluid.state.mass[i], fluid.state.velocity[i]);
+                let (volume, outward) = (mass / rest_density, velocity.dot(zone.normal));
                 sums[k].volume += volume;
-                sums[k].moment += volume * fluid.state.velocity[i].dot(zone.normal);
-                sums[k].pressure += volume * fluid.acoustic_pressure(i);
+                sums[k].moment += volume * outward;
+                sums[k].kinetic += 0.5 * mass * velocity.length_squared() * outward;
+                if port.outlet.is_some() {
+                    sums[k].pressure += volume * fluid.acoustic_pressure(i);
+                }
             }
         }
         for ((port, sum), imposed) in self.ports.iter_mut().zip(&sums).zip(&imposed) {
             port.counters.damped_energy += sum.damped;
+            port.passed.time += dt;
+            port.passed.volume += dt * sum.moment / length;
+            port.passed.kinetic_energy += dt * sum.kinetic / length;
             if let (Some(outlet), true) = (&mut port.outlet, sum.volume > 0.0) {
                 let buffer = Seen {
                     velocity: sum.moment / sum.volume,
@@ -110,17 +117,12 @@ impl Openings {
         let (near, far) = (self.buffer_length(), self.buffer_length() + SECTION * self.spacing);
         let reference = self.reference_pressure(t);
         let mut readings: Vec<Reading> = vec![Reading::default(); self.ports.len()];
-        for zone in &self.zones {
-            let (i, k) = (zone.particle as usize, zone.opening as usize);
-            if state.opening[i] != k as i32 {
-                continue;
-            }
-            let volume = state.mass[i] / self.numbers.rest_density;
-            let outward = state.velocity[i].dot(zone.normal) / near;
-            readings[k].flow += volume * outward;
-            readings[k].kinetic_power += 0.5 * state.mass[i] * state.velocity[i].length_squared() * outward;
-        }
         for (k, port) in self.ports.iter().enumerate() {
+            let Passed { time, volume, kinetic_energy } = port.passed;
+            if time > 0.0 {
+                readings[k].flow = volume / time;
+                readings[k].kinetic_power = kinetic_energy / time;
+            }
             readings[k].outlet = port.outlet.as_ref().map(|o| o.state.outlet);
             readings[k].pressure = match self.pressure_value(k, t) {
                 Some(pressure) => pressure,
@@ -149,6 +151,8 @@ struct Sums {
     moment: f64,
     /// Their volume times pressure, relative to the reference \[Pa m^3\].
     pressure: f64,
+    /// Their kinetic energy times velocity out of the vessel \[J m/s\].
+    kinetic: f64,
     /// Energy taken from those that come in \[J\].
     damped: f64,
 }

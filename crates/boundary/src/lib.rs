@@ -7,6 +7,7 @@ pub mod openings;
 pub mod outlet;
 pub mod port;
 pub mod profile;
+mod room;
 pub mod tune;
 pub mod waveform;
 

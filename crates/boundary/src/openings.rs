@@ -1,8 +1,10 @@
 //! All openings of a run, and the pressure level they set.
 
 use crate::outlet::{Coupling, Outlet, OutletState, common_pressure};
-use crate::port::{Condition, Counters, Port, PortState};
+use crate::port::{Condition, Counters, Passed, Port, PortState};
 use crate::profile::Inlet;
+use crate::room::places;
+use glam::DVec3;
 use num_complex::Complex64;
 use vaso_fluid::{CapZone, Numbers};
 use vaso_geometry::Opening;
@@ -32,6 +34,8 @@ pub struct Openings {
     pub(crate) spacing: f64,
     pub(crate) next_id: u64,
     reference: Reference,
+    /// Places over the cap of each pressure opening \[m\], for what comes in there.
+    pub(crate) places: Vec<Vec<DVec3>>,
     pub(crate) zones: Vec<CapZone>,
     /// Steady unit-mean profile value at each zone entry.
     pub(crate) shape: Vec<f64>,
@@ -61,7 +65,16 @@ impl Openings {
                     _ => None,
                 };
                 let backflow_damping = BACKFLOW_DAMPING;
-                Port { opening, condition, counters: Counters::default(), backflow_damping, outlet, inlet }
+                Port {
+                    opening,
+                    condition,
+                    counters: Counters::default(),
+                    backflow_damping,
+                    outlet,
+                    inlet,
+                    owed: 0,
+                    passed: Passed::default(),
+                }
             })
             .collect();
         let fixed_value = ports.iter().position(|p| matches!(p.condition, Condition::Pressure { .. }));
@@ -71,8 +84,16 @@ impl Openings {
             (None, None) if ports.iter().any(|p| p.outlet.is_some()) => Reference::Outlets,
             (None, None) => Reference::Fixed(0.0),
         };
+        let places =
+            ports
+                .iter()
+                .map(|p| {
+                    if p.condition.sets_pressure() { places(&p.opening, numbers.spacing) } else { Vec::new() }
+                })
+                .collect();
         Self {
             ports,
+            places,
             numbers: *numbers,
             spacing: numbers.spacing,
             next_id: 0,
@@ -107,7 +128,11 @@ impl Openings {
 
     /// What the openings carry from step to step, one by one; with [`Self::next_id`] all that a checkpoint needs.
     pub fn states(&self) -> Vec<PortState> {
-        let state = |p: &Port| PortState { counters: p.counters, outlet: p.outlet.as_ref().map(|o| o.state) };
+        let state = |p: &Port| PortState {
+            counters: p.counters,
+            owed: p.owed,
+            outlet: p.outlet.as_ref().map(|o| o.state),
+        };
         self.ports.iter().map(state).collect()
     }
 
@@ -120,6 +145,7 @@ impl Openings {
         self.next_id = next_id;
         for (port, state) in self.ports.iter_mut().zip(states) {
             port.counters = state.counters;
+            port.owed = state.owed;
             if let (Some(outlet), Some(state)) = (&mut port.outlet, state.outlet) {
                 outlet.state = state;
             }

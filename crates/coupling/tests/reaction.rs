@@ -60,6 +60,7 @@ fn imbalance(rheology: Option<Rheology>, is_alone: bool) -> f64 {
         depth: HALF,
         is_imposed: false,
         in_buffer: false,
+        share: 1.0,
     };
     let zones: Vec<CapZone> = if is_alone { Vec::new() } else { (0..n as u32).map(zone).collect() };
     let wall: Vec<DVec3> =

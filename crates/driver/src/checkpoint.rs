@@ -20,6 +20,7 @@ pub fn write<R: Real>(folder: &Path, flow: &mut Flow<R>) -> Result<(), IoError> 
     if let Some(wall) = &mut flow.wall {
         archive.put_columns("wall", &mut wall.wall);
     }
+    archive.put_floats("fluid.capacity_m3", flow.fluid.capacity().as_slice());
     archive.put_floats("time_s", &[flow.time]);
     archive.put_integers("steps", &[flow.advective_steps, flow.acoustic_steps, flow.particle_substeps]);
     let counters = flow.openings.ports().iter().map(|p| p.counters);
@@ -35,6 +36,8 @@ pub fn write<R: Real>(folder: &Path, flow: &mut Flow<R>) -> Result<(), IoError> 
     // Openings without a model stand as zeros.
     let outlets = flow.openings.states().into_iter().flat_map(|s| s.outlet.unwrap_or_default().to_array());
     archive.put_floats("openings.outlets", &outlets.collect::<Vec<_>>());
+    let owed = flow.openings.states().into_iter().map(|s| u64::from(s.owed));
+    archive.put_integers("openings.owed", &owed.collect::<Vec<_>>());
     archive.put_integers("openings.next_id", &[flow.openings.next_id()]);
     archive.write(&folder.join("checkpoint.h5"))
 }

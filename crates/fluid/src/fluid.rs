@@ -103,6 +103,10 @@ pub struct Fluid<R> {
     /// One more than the place in the zone list, zero away from caps.
     pub(crate) zone_of: Vec<u32>,
     pub(crate) lattice_sum: f64,
+    /// What the kernel sum exceeds the density by \[kg/m^3\].
+    pub(crate) surplus: Vec<f64>,
+    /// Volume of a vessel at rest, its buffers by the share with which their particles count \[m^3\]; from the first step on.
+    pub(crate) capacity: Option<f64>,
     /// Time since the first of the acoustic steps \[s\].
     pub(crate) elapsed: f64,
     wall_distance: Box<dyn WallDistance>,
@@ -141,6 +145,8 @@ impl<R: Real> Fluid<R> {
             slope: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
+            surplus: Vec::new(),
+            capacity: None,
             elapsed: 0.0,
             wall_distance,
             reach: kernel.support(),
@@ -175,7 +181,19 @@ impl<R: Real> Fluid<R> {
             + self.grid.bytes()
             + self.frozen.capacity() * size_of::<Frozen>()
             + self.slope.capacity() * size_of::<DMat3>()
+            + 8 * self.surplus.capacity()
             + 4 * (self.zone_of.capacity() + self.order.capacity())
+    }
+
+    /// Volume \[m^3\] of a vessel at rest that its mass is compared with, from the first step on: all that a checkpoint needs besides the
+    /// columns of [`Self::state`].
+    pub fn capacity(&self) -> Option<f64> {
+        self.capacity
+    }
+
+    /// Goes on with what [`Self::capacity`] gave.
+    pub fn set_capacity(&mut self, capacity: Option<f64>) {
+        self.capacity = capacity;
     }
 
     /// Puts the particles in cell order.

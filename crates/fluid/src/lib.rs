@@ -5,6 +5,7 @@ pub mod cap;
 pub mod energy;
 pub mod fluid;
 pub mod law;
+mod level;
 mod moving;
 pub mod numbers;
 mod rheology;

@@ -19,6 +19,7 @@ impl<R: Real> Fluid<R> {
         self.current.resize(n);
         self.next.resize(n);
         self.second.resize(n);
+        self.surplus.resize(n, 0.0);
         let mut current = std::mem::take(&mut self.current);
         current.fill(|i| {
             let mass = self.state.mass[i];
@@ -28,8 +29,8 @@ impl<R: Real> Fluid<R> {
         let value = self.kernel.value_scale();
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
-        let (blend, s0) = (self.numbers.density_blend, self.lattice_sum);
-        let (mass, zone_of) = (&self.state.mass, &self.zone_of);
+        let s0 = self.lattice_sum;
+        let mass = &self.state.mass;
         let (rows, wall) = (&self.rows, &self.wall);
         let (isa, frame) = (self.isa, &self.frame);
         let fluid_gather =
@@ -38,14 +39,15 @@ impl<R: Real> Fluid<R> {
             Gather { frame, own: &current, other: &wall.kinematic, own_second: None, other_second: None };
         (
             self.frozen.par_chunks_mut(CHUNK),
-            self.state.density_change.par_chunks_mut(CHUNK),
+            self.state.density_change.par_chunks(CHUNK),
+            self.surplus.par_chunks_mut(CHUNK),
             self.second.as_mut_slice().par_chunks_mut(CHUNK),
             rows.chunks(),
             wall.fluid_rows.chunks(),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (frozen, density_change, second, row, wall_row))| {
+            .for_each(|(c, (frozen, density_change, surplus, second, row, wall_row))| {
                 let mut fluid = [[0.0; SUMS]; CHUNK];
                 let mut walls = [[0.0; SUMS]; CHUNK];
                 sweep(isa, &Moments, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
@@ -58,13 +60,7 @@ impl<R: Real> Fluid<R> {
                     // The self term has u = 1, so u^4 (5 - 4u) = 1.
                     let kernel_sum = value * (f[0] + mass[i] / rho0 + w[0]);
                     let summed = rho0 * (kernel_sum / s0 - 1.0);
-                    let in_buffer = match zone_of[i] {
-                        0 => false,
-                        z => zones[z as usize - 1].in_buffer,
-                    };
-                    if !in_buffer {
-                        density_change[k] += blend * (summed - density_change[k]);
-                    }
+                    surplus[k] = summed - density_change[k];
                     let moment = Sym3(std::array::from_fn(|q| gradient * support * (f[4 + q] + w[4 + q])));
                     let frozen = &mut frozen[k];
                     frozen.correction = Sym3::correction(&moment);
@@ -76,6 +72,7 @@ impl<R: Real> Fluid<R> {
                 }
             });
         self.current = current;
+        self.blend(zones);
     }
 }
 

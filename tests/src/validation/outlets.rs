@@ -41,19 +41,15 @@ pub const SVFSI: Case = Case {
     name: "svfsi-pipe",
     title: "Wide pipe with a Windkessel, against finite elements",
     setup: "Radius 20 mm, 300 mm long, Q = 62.83 (1 - cos 2 pi t) ml/s as a parabola from rest, empty store, R_p 1.21e7, \
-            C 1.5e-9, R_d 1.212e8, spacing 4 mm, two cycles, sound speed 20 m/s.",
+            C 1.5e-9, R_d 1.212e8, D/14 (D/10 in the quick run), two cycles (one), sound speed 40 m/s.",
     reference: "svFSI-Tests, 04-fluid/01-pipe3D_RCR, RCR.dat; exact integral.",
-    remark: "Missed, and not for the pressure level: with it in the equation of state 154 m/s would be needed for 1 %. Sound \
-             takes L/c from end to end, which makes the outflow 1/cos(w L/c) of the inflow, 1.005 here. What is left is that \
-             the fluid in the pipe swings by 0.65 % in volume with the beat, the same at 6, 10 and 20 m/s, at D/10 and D/16. \
-             While the flow is slowed down the pressure lies below that of the outlet, hence below the reference. Particles \
-             then stand less evenly, the kernel sum of an uneven set is larger at the same number, and the density blend thins \
-             the fluid. With a reference 200 Pa below the outlet (constant outlet pressure, D/8, 10 m/s) the swing falls to \
-             0.17 % and the error of the flow from 11 to 4 % of its peak. This pipe holds six strokes, so 0.65 % of it, filled \
-             and emptied once a cycle, is 12 % of the peak flow. The published carotid holds a fifth of a stroke, where the \
-             same swing is 0.3 %.",
-    quick: Some(|| svfsi(0.5)),
-    full: || svfsi(2.0),
+    remark: "With the pressure level in the equation of state 154 m/s would be needed for 1 %. Sound takes L/c from end to end, which \
+             makes the outflow 1/cos(w L/c) of the inflow, 1.001 here. The pipe holds six strokes, so that a thousandth of its \
+             volume, filled and emptied within a tenth of the cycle, is 3 % of the peak flow: the flow shows what the density \
+             does, the pressure what comes of it. Both were off by 7 to 11 % while the kernel sum set the mean density \
+             (decision 10, items 18 and 19).",
+    quick: Some(|| svfsi(10.0, 1.0)),
+    full: || svfsi(14.0, 2.0),
 };
 
 /// A resistance far above what sound sees.
@@ -102,7 +98,7 @@ fn outlet(pipe: &Pipe) -> (Series, Series, Flown) {
         let k = plan.openings.iter().position(|o| o.name == "outlet").expect("there is an outlet");
         let reading = flow.readings[k];
         pressure.add(flow.time, reading.pressure);
-        flow_out.add(flow.time, reading.outlet.map_or(reading.flow, |outlet| outlet.flow));
+        flow_out.add(flow.time, reading.flow);
     });
     (pressure, flow_out, flown)
 }
@@ -226,7 +222,7 @@ fn windkessel_keys(model: &Windkessel, start: &str) -> String {
     )
 }
 
-fn svfsi(cycles: f64) -> Option<Outcome> {
+fn svfsi(across: f64, cycles: f64) -> Option<Outcome> {
     let mut outcome = Outcome::new();
     let file = data()?.join("reference/svfsi_pipe_rcr_rigid/RCR.dat");
     let text = std::fs::read_to_string(file).expect("the data hold the table");
@@ -236,7 +232,7 @@ fn svfsi(cycles: f64) -> Option<Outcome> {
         .map(|line| line.split_whitespace().map(|v| v.parse().expect("a number")).collect())
         .collect();
     let mut pipe =
-        Pipe { diameter: 0.04, length: 0.3, density: 1060.0, viscosity: 4e-3, ..Pipe::published(10.0) };
+        Pipe { diameter: 0.04, length: 0.3, density: 1060.0, viscosity: 4e-3, ..Pipe::published(across) };
     pipe.end_time = cycles;
     let inflow = |t: f64| 62.831_853_07e-6 * (1.0 - (TAU * t).cos());
     pipe.inflow = (0..=400).map(|k| f64::from(k) / 400.0).map(|t| [t, inflow(t)]).collect();
@@ -249,7 +245,7 @@ fn svfsi(cycles: f64) -> Option<Outcome> {
     pipe.inlet =
         "condition = \"flow\"\nprofile = \"parabolic\"\nwaveform = \"inflow.csv\"\nramp = \"0 s\"".into();
     pipe.outlet = windkessel_keys(&model, "initial_pressure = \"0 Pa\"");
-    pipe.more = "period = \"1 s\"\n[numerics]\nsound_speed = \"20 m/s\"".into();
+    pipe.more = "period = \"1 s\"\n[numerics]\nsound_speed = \"40 m/s\"".into();
     let (pressure, flow_out, flown) = outlet(&pipe);
     outcome.cost(&flown);
     let column = |k: usize, scale: f64| {
@@ -268,13 +264,13 @@ fn svfsi(cycles: f64) -> Option<Outcome> {
         "outlet pressure, largest difference of means over 20 ms from the finite elements, of the peak",
         smooth(&pressure, &column(2, 0.1)) / peak,
         Unit::Part,
-        Tolerance::Missed { asked: 0.01, held: 0.12 },
+        if across < 12.0 { Tolerance::Held(0.03) } else { Tolerance::Missed { asked: 0.01, held: 0.02 } },
     );
     outcome.figure(
         "outlet flow, the same",
         smooth(&flow_out, &column(3, 1e-6)) / (2.0 * 62.831_853_07e-6),
         Unit::Part,
-        Tolerance::Missed { asked: 0.01, held: 0.16 },
+        if across < 12.0 { Tolerance::Held(0.08) } else { Tolerance::Missed { asked: 0.01, held: 0.04 } },
     );
     lost(&mut outcome, &flown);
     Some(outcome)

@@ -98,7 +98,7 @@ fn run(spec: &Spec) -> Option<Outcome> {
     let mut text = format!(
         "[geometry]\nsurface = {:?}\nunit = \"{}\"\n[particles]\nspacing = \"{} m\"\n\
          [blood]\ndensity = \"1060 kg/m^3\"\nviscosity = \"3.5 mPa s\"\n\
-         [[opening]]\nname = \"inlet\"\nnear = {near:?}\ncondition = \"velocity\"\nprofile = \"{profile}\"\nwaveform = {:?}\n",
+         [[opening]]\nname = \"inlet\"\nnear = {near:?}\ncondition = \"velocity\"\nprofile = \"{profile}\"\nramp = \"20 ms\"\nwaveform = {:?}\n",
         data.join(spec.surface),
         spec.unit,
         spec.spacing,
