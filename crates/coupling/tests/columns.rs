@@ -171,10 +171,12 @@ fn forces_on_ghosts_are_forces_on_columns() {
     let n = columns.view().position.len();
     let force: Vec<DVec3> = (0..n).map(|k| DVec3::new(1.0, k as f64, (k as f64).sin())).collect();
     let (mut pressure, mut viscous) = (vec![DVec3::ONE; columns.len()], vec![DVec3::ONE; columns.len()]);
+    let mut spread = vec![0.0; columns.len()];
     columns.gather(
         &WallLoad { pressure_force: &force, viscous_force: &vec![DVec3::ZERO; n] },
         &mut pressure,
         &mut viscous,
+        &mut spread,
     );
     let (total, given): (DVec3, DVec3) = (pressure.iter().sum(), force.iter().sum());
     assert!((total - given).length() < 1e-12 * given.length());

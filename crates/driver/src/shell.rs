@@ -5,7 +5,6 @@ use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::Plan;
 use crate::structure;
-use glam::DVec3;
 use vaso_coupling::{Foot, GhostColumns, ShellWall};
 use vaso_fluid::Real;
 use vaso_generation::ShellBody;
@@ -109,10 +108,9 @@ impl PlannedShell {
         let Wall::Shell(wall) = &case.scene.wall else {
             return Err(DriverError::input("a wall that is planned as a shell is one"));
         };
-        let shell = self
-            .shell(case, plan, wall, body)
-            .map_err(|e| DriverError::input(format!("{}: `wall`: {e}", case.scene.file.display())))?;
-        Ok(ShellWall::new(shell, plan.numbers.spacing, bodies::support(&case.scene)))
+        self.shell(case, plan, wall, body)
+            .and_then(|shell| ShellWall::new(shell, plan.numbers.spacing, bodies::support(&case.scene)))
+            .map_err(|e| DriverError::input(format!("{}: `wall`: {e}", case.scene.file.display())))
     }
 
     fn shell<R: Real>(
@@ -176,11 +174,10 @@ fn hold<R: Real>(
 pub(crate) fn rigid_columns(case: &Case, plan: &Plan, body: &ShellBody) -> GhostColumns {
     let foot = |i: usize| Foot {
         position: body.position[i],
-        velocity: DVec3::ZERO,
         normal: body.normal[i],
-        turning: DVec3::ZERO,
         area: body.area[i],
         curvature: body.curvature[i],
+        ..Foot::default()
     };
     let feet = (0..body.position.len()).map(foot).collect();
     GhostColumns::new(feet, plan.numbers.spacing, bodies::support(&case.scene))

@@ -1,0 +1,166 @@
+//! Walls of one layer next to blood: at rest as layers are, and inflated to rest.
+
+use vaso_coupling::ShellWall;
+use vaso_driver::Flow;
+use vaso_fluid::Real;
+use vaso_tests::pipe::Pipe;
+
+type ShellFlow = Flow<f32, ShellWall<f32>>;
+
+/// Flow \[m^3/s\] along the middle of a pipe of 10 spacings across, driven by a pressure until it is steady, over that of Poiseuille.
+fn poiseuille<R: Real>(across: f64, wall: &str) -> f64 {
+    let pressure = |p: f64| format!("condition = \"pressure\"\nvalue = \"{p} Pa\"\nramp = \"5 ms\"");
+    let (difference, viscosity) = (120.0, 0.1);
+    let pipe = Pipe {
+        inlet: pressure(difference),
+        outlet: pressure(0.0),
+        viscosity,
+        end_time: 0.1,
+        more: format!("\n[wall]\nmodel = \"{wall}\"\n"),
+        ..Pipe::published(across)
+    };
+    let (mut flow, _, plan) = pipe.flow::<R>();
+    let (mut carried, mut time) = (0.0, 0.0);
+    while flow.time < pipe.end_time {
+        let before = flow.time;
+        flow.step(pipe.end_time).unwrap_or_else(|e| panic!("{e}"));
+        if before < 0.8 * pipe.end_time {
+            continue;
+        }
+        let (state, dt) = (&flow.fluid.state, flow.time - before);
+        let within = (0..state.len()).filter(|&i| (0.3..0.7).contains(&(state.position[i].z / pipe.length)));
+        let momentum: f64 = within.map(|i| state.mass[i] * state.velocity[i].z).sum();
+        carried += dt * momentum / plan.numbers.rest_density / (0.4 * pipe.length);
+        time += dt;
+    }
+    assert_eq!(flow.watch.escaped, 0, "{wall}");
+    let exact = std::f64::consts::PI * pipe.radius().powi(4) * difference / (8.0 * viscosity * pipe.length);
+    carried / time / exact
+}
+
+#[test]
+fn a_rigid_shell_carries_the_flow_of_a_rigid_wall() {
+    let (shell, layers) = (poiseuille::<f32>(10.0, "rigid-shell"), poiseuille::<f32>(10.0, "rigid"));
+    println!(
+        "flow by that of Poiseuille: shell {shell:.4}, four layers {layers:.4}, ratio {:.4}",
+        shell / layers
+    );
+    assert!((shell / layers - 1.0).abs() < 0.01, "{shell} {layers}");
+}
+
+/// A tube whose lumen is 10 mm wide, at rest under a pressure.
+struct Inflated {
+    across: f64,
+    young: f64,
+    thickness: f64,
+    /// Spacing of the shell over that of the blood.
+    share: f64,
+    /// Hoop strain of the mid-surface of a thin tube.
+    strain: f64,
+}
+
+const POISSON: f64 = 0.45;
+const LUMEN: f64 = 5e-3;
+
+impl Inflated {
+    /// Pressure \[Pa\] that the lumen passes on to the mid-surface of a tube held at its ends: `p r = E t strain / (1 - nu^2)`.
+    fn pressure(&self) -> f64 {
+        self.strain * self.young * self.thickness / ((1.0 - POISSON * POISSON) * LUMEN)
+    }
+
+    fn pipe(&self) -> Pipe {
+        let spacing = 2.0 * LUMEN / self.across;
+        let end = format!("condition = \"pressure\"\nvalue = \"{} Pa\"\nramp = \"14 ms\"", self.pressure());
+        Pipe {
+            diameter: 2.0 * LUMEN,
+            length: 30e-3 + 8.0 * spacing,
+            density: 1000.0,
+            // A thick liquid comes to rest soon.
+            viscosity: 0.3,
+            inlet: end.clone(),
+            outlet: end,
+            // Slow sound is enough for a state at rest.
+            more: format!(
+                "[numerics]\nsound_speed = \"20 m/s\"\n[wall]\nmodel = \"shell\"\nmaterial = \"saint-venant-kirchhoff\"\n\
+                 young_modulus = \"{} Pa\"\npoisson_ratio = {POISSON}\nthickness = \"{} m\"\nspacing = \"{} m\"\n\
+                 density = \"1000 kg/m^3\"\ndamping = \"quasi-static\"\n",
+                self.young,
+                self.thickness,
+                self.share * spacing
+            ),
+            ..Pipe::published(self.across)
+        }
+    }
+
+    /// Radial displacement of the middle fifth over that of theory under the pressure there, its scatter, and that pressure over the
+    /// one at the ends.
+    fn run(&self) -> [f64; 3] {
+        let pipe = self.pipe();
+        let (mut flow, _, _) = pipe.flow_in::<f32, ShellWall<f32>>();
+        // One period of the sloshing, after the ramp.
+        let (from, to) = (16e-3, 28e-3);
+        let mut sums = [0.0; 3];
+        while flow.time < to {
+            let before = flow.time;
+            flow.step(to).unwrap_or_else(|e| panic!("{e}"));
+            if before >= from {
+                let [mean, scatter] = self.middle(&flow, &pipe);
+                let now = [mean, scatter, pressure(&flow, &pipe) / self.pressure()];
+                sums.iter_mut().zip(now).for_each(|(sum, v)| *sum += (flow.time - before) / (to - from) * v);
+            }
+        }
+        assert_eq!(flow.watch.escaped, 0);
+        let [mean, scatter, pressure] = sums;
+        [mean / pressure, scatter / mean, pressure]
+    }
+
+    /// Mean radial displacement of the middle fifth over that of theory at the full pressure, and its standard deviation.
+    fn middle(&self, flow: &ShellFlow, pipe: &Pipe) -> [f64; 2] {
+        let state = &flow.wall.as_ref().expect("the wall deforms").wall.shell.state;
+        let expected = self.strain * (LUMEN + 0.5 * self.thickness);
+        let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for i in (0..state.len()).filter(|&i| is_middle(state.reference_position[i].z, pipe)) {
+            let x = state.reference_position[i];
+            let u = state.displacement[i].dot(x.with_z(0.0).normalize()) / expected;
+            (n, sum, squares) = (n + 1.0, sum + u, squares + u * u);
+        }
+        let mean = sum / n;
+        [mean, (squares / n - mean * mean).max(0.0).sqrt()]
+    }
+}
+
+fn is_middle(z: f64, pipe: &Pipe) -> bool {
+    (z - 0.5 * pipe.length).abs() < 0.1 * pipe.length
+}
+
+/// Mean pressure of the blood in the middle fifth \[Pa\].
+fn pressure(flow: &ShellFlow, pipe: &Pipe) -> f64 {
+    let state = &flow.fluid.state;
+    let within = (0..state.len()).filter(|&i| is_middle(state.position[i].z, pipe));
+    let (sum, n) = within.fold((0.0, 0.0), |(sum, n), i| (sum + state.pressure[i], n + 1.0));
+    sum / n
+}
+
+#[test]
+fn a_tube_under_pressure_widens_as_a_thin_one() {
+    let tube = Inflated { across: 10.0, young: 600e3, thickness: 0.5e-3, share: 1.0, strain: 5e-3 };
+    let [widening, scatter, pressure] = tube.run();
+    println!(
+        "widening {widening:.4} of p r R (1 - nu^2)/(E t), scatter {scatter:.4}, pressure {pressure:.4}"
+    );
+    assert!((widening - 1.0).abs() < 0.02, "{widening}");
+}
+
+#[test]
+#[ignore = "some minutes on two cores"]
+fn the_widening_at_other_spacings() {
+    for (across, thickness, share) in
+        [(20.0, 0.5e-3, 1.0), (10.0, 0.5e-3, 0.7), (10.0, 0.15e-3, 1.0), (10.0, 2e-3, 1.0)]
+    {
+        let tube = Inflated { across, young: 600e3, thickness, share, strain: 5e-3 };
+        let [widening, scatter, pressure] = tube.run();
+        println!(
+            "D/{across}, {thickness} m, shell {share}: widening {widening:.4}, scatter {scatter:.4}, pressure {pressure:.4}"
+        );
+    }
+}
