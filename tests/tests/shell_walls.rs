@@ -57,6 +57,8 @@ struct Inflated {
     share: f64,
     /// Hoop strain of the mid-surface of a thin tube.
     strain: f64,
+    /// Displacement of the mid-surface is compared with that of a thick tube, not of a thin one.
+    is_thick: bool,
 }
 
 const POISSON: f64 = 0.45;
@@ -114,10 +116,19 @@ impl Inflated {
         [mean / pressure, scatter / mean, pressure]
     }
 
+    /// Radial displacement of the mid-surface under the full pressure, in plane strain: of a thin tube `p r R (1 - nu^2)/(E t)`, of a
+    /// thick one by Lame.
+    fn expected(&self) -> f64 {
+        let (a, b, r) = (LUMEN, LUMEN + self.thickness, LUMEN + 0.5 * self.thickness);
+        let lame = self.pressure() * a * a * (1.0 + POISSON) / (self.young * (b * b - a * a))
+            * ((1.0 - 2.0 * POISSON) * r + b * b / r);
+        if self.is_thick { lame } else { self.strain * r }
+    }
+
     /// Mean radial displacement of the middle fifth over that of theory at the full pressure, and its standard deviation.
     fn middle(&self, flow: &ShellFlow, pipe: &Pipe) -> [f64; 2] {
         let state = &flow.wall.as_ref().expect("the wall deforms").wall.shell.state;
-        let expected = self.strain * (LUMEN + 0.5 * self.thickness);
+        let expected = self.expected();
         let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
         for i in (0..state.len()).filter(|&i| is_middle(state.reference_position[i].z, pipe)) {
             let x = state.reference_position[i];
@@ -141,10 +152,21 @@ fn pressure(flow: &ShellFlow, pipe: &Pipe) -> f64 {
     sum / n
 }
 
+const TUBE: Inflated =
+    Inflated { across: 10.0, young: 600e3, thickness: 0.5e-3, share: 1.0, strain: 5e-3, is_thick: true };
+
 #[test]
-fn a_tube_under_pressure_widens_as_a_thin_one() {
-    let tube = Inflated { across: 10.0, young: 600e3, thickness: 0.5e-3, share: 1.0, strain: 5e-3 };
-    let [widening, scatter, pressure] = tube.run();
+fn a_tube_under_pressure_widens_as_lame_says() {
+    let [widening, scatter, pressure] = TUBE.run();
+    println!("widening {widening:.4} of that of Lame, scatter {scatter:.4}, pressure {pressure:.4}");
+    assert!((widening - 1.0).abs() < 0.02, "{widening}");
+}
+
+/// As thin as a sixth of a spacing, where the wall is lighter than the blood within reach and the formula of a thin tube holds.
+#[test]
+fn a_thin_tube_widens_as_a_membrane() {
+    let thin = Inflated { young: 2e6, thickness: 0.15e-3, is_thick: false, ..TUBE };
+    let [widening, scatter, pressure] = thin.run();
     println!(
         "widening {widening:.4} of p r R (1 - nu^2)/(E t), scatter {scatter:.4}, pressure {pressure:.4}"
     );
@@ -154,13 +176,86 @@ fn a_tube_under_pressure_widens_as_a_thin_one() {
 #[test]
 #[ignore = "some minutes on two cores"]
 fn the_widening_at_other_spacings() {
-    for (across, thickness, share) in
-        [(20.0, 0.5e-3, 1.0), (10.0, 0.5e-3, 0.7), (10.0, 0.15e-3, 1.0), (10.0, 2e-3, 1.0)]
-    {
-        let tube = Inflated { across, young: 600e3, thickness, share, strain: 5e-3 };
-        let [widening, scatter, pressure] = tube.run();
+    for other in [
+        Inflated { across: 16.0, ..TUBE },
+        Inflated { share: 0.7, ..TUBE },
+        Inflated { thickness: 2e-3, young: 150e3, ..TUBE },
+    ] {
+        let [widening, scatter, pressure] = other.run();
         println!(
-            "D/{across}, {thickness} m, shell {share}: widening {widening:.4}, scatter {scatter:.4}, pressure {pressure:.4}"
+            "D/{}, t {} mm, shell {} spacings: widening {widening:.4} of Lame, scatter {scatter:.4}, pressure {pressure:.4}",
+            other.across,
+            1e3 * other.thickness,
+            other.share
         );
+        assert!((widening - 1.0).abs() < 0.03, "{widening}");
+    }
+}
+
+/// A pulse of pressure into a coarse tube of these thickness \[m\] and density \[kg/m^3\]: the largest energy of the wall over the work of
+/// the openings so far, from the end of the pulse on, and the largest displacement \[m\].
+fn pulse(thickness: f64, density: f64) -> [f64; 2] {
+    // The pulse wave goes at 4 m/s in every one of them.
+    let young = 2.0 * 1000.0 * LUMEN * 16.0 * (1.0 - POISSON * POISSON) / thickness;
+    let spacing = 1e-3;
+    let (duration, height) = (4e-3, 800.0);
+    let rise = duration / 20.0;
+    let pipe = Pipe {
+        diameter: 2.0 * LUMEN,
+        length: 28e-3 + 8.0 * spacing,
+        density: 1000.0,
+        viscosity: 3e-3,
+        inlet: "condition = \"pressure\"\nwaveform = \"inflow.csv\"".into(),
+        outlet: "condition = \"pressure\"\nvalue = \"0 Pa\"".into(),
+        inflow: vec![[0.0, 0.0], [rise, height], [duration, height], [duration + rise, 0.0], [1.0, 0.0]],
+        end_time: 20e-3,
+        more: format!(
+            "[numerics]\nsound_speed = \"20 m/s\"\n[wall]\nmodel = \"shell\"\nyoung_modulus = \"{young} Pa\"\npoisson_ratio = \
+             {POISSON}\nthickness = \"{thickness} m\"\ndensity = \"{density} kg/m^3\"\n"
+        ),
+        ..Pipe::published(10.0)
+    };
+    let (mut flow, _, _) = pipe.flow_in::<f32, ShellWall<f32>>();
+    let (mut work, mut share, mut largest) = (0.0, 0.0_f64, 0.0_f64);
+    while flow.time < pipe.end_time {
+        let before = flow.time;
+        flow.step(pipe.end_time).unwrap_or_else(|e| panic!("t {thickness}, density {density}: {e}"));
+        work -= (flow.time - before)
+            * flow.readings.iter().map(|r| r.pressure * r.flow + r.kinetic_power).sum::<f64>();
+        let shell = &flow.wall.as_ref().expect("the wall deforms").wall.shell;
+        largest = shell.state.displacement.iter().map(|u| u.length()).fold(largest, f64::max);
+        if flow.time > duration {
+            let e = shell.energies();
+            share = share.max((e.kinetic + e.rotary + e.strain() + e.hourglass) / work);
+        }
+    }
+    assert_eq!(flow.watch.escaped, 0, "t {thickness}, density {density}");
+    [share, largest]
+}
+
+#[test]
+fn a_light_and_a_thick_shell_keep_the_energy_they_get() {
+    for (thickness, density) in [(0.05e-3, 500.0), (4e-3, 1200.0)] {
+        let [share, largest] = pulse(thickness, density);
+        println!(
+            "t {thickness} m, density {density}: energy over work {share:.3}, up to {:.3} mm",
+            1e3 * largest
+        );
+        assert!(share < 1.0, "t {thickness}, density {density}: {share}");
+    }
+}
+
+#[test]
+#[ignore = "some minutes on two cores"]
+fn shells_of_all_thicknesses_keep_the_energy_they_get() {
+    for thickness in [0.05e-3, 0.1e-3, 0.2e-3, 0.4e-3, 1e-3, 4e-3] {
+        for density in [500.0, 800.0, 1200.0] {
+            let [share, largest] = pulse(thickness, density);
+            println!(
+                "t {thickness} m, density {density}: energy over work {share:.3}, up to {:.3} mm",
+                1e3 * largest
+            );
+            assert!(share < 1.0, "t {thickness}, density {density}: {share}");
+        }
     }
 }
