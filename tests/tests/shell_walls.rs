@@ -261,3 +261,59 @@ fn shells_of_all_thicknesses_keep_the_energy_they_get() {
         }
     }
 }
+
+/// A long pulse of pressure in a long thin tube whose material does not contract sideways: it goes at `1/sqrt(1/c_w^2 + 1/c^2)`, with `c_w^2
+/// = E t / (2 rho R)` of the mid-surface. The front is timed at half its height, a quarter and half along.
+#[test]
+#[ignore = "some minutes on two cores"]
+fn a_long_pulse_goes_at_the_speed_of_moens_and_korteweg() {
+    let (young, thickness, density, sound) = (300e3, 1e-3, 1000.0, 30.0);
+    let (rise, height) = (40e-3, 150.0);
+    let wave = (young * thickness / (2.0 * density * (LUMEN + 0.5 * thickness))).sqrt();
+    let expected = 1.0 / (1.0_f64 / (wave * wave) + 1.0 / (sound * sound)).sqrt();
+    let front: Vec<[f64; 2]> = (0..=20)
+        .map(|k| {
+            let s = f64::from(k) / 20.0;
+            [s * rise, 0.5 * height * (1.0 - (std::f64::consts::PI * s).cos())]
+        })
+        .chain([[1.0, height]])
+        .collect();
+    let pipe = Pipe {
+        diameter: 2.0 * LUMEN,
+        length: 300e-3,
+        density,
+        viscosity: 1e-4,
+        inlet: "condition = \"pressure\"\nwaveform = \"inflow.csv\"".into(),
+        outlet: "condition = \"pressure\"\nvalue = \"0 Pa\"".into(),
+        inflow: front,
+        end_time: 65e-3,
+        more: format!(
+            "[numerics]\nsound_speed = \"{sound} m/s\"\n[wall]\nmodel = \"shell\"\nmaterial = \"saint-venant-kirchhoff\"\nyoung_modulus = \
+             \"{young} Pa\"\npoisson_ratio = 0.0\nthickness = \"{thickness} m\"\ndensity = \"{density} kg/m^3\"\n"
+        ),
+        ..Pipe::published(10.0)
+    };
+    let (mut flow, _, _) = pipe.flow_in::<f32, ShellWall<f32>>();
+    let places = [0.2, 0.5].map(|share| share * pipe.length);
+    let mut passed = [None; 2];
+    let mut before = [(0.0, 0.0); 2];
+    while flow.time < pipe.end_time && passed[1].is_none() {
+        flow.step(pipe.end_time).unwrap_or_else(|e| panic!("{e}"));
+        let state = &flow.fluid.state;
+        for k in 0..2 {
+            let near = (0..state.len()).filter(|&i| (state.position[i].z - places[k]).abs() < 5e-3);
+            let (sum, n) = near.fold((0.0, 0.0), |(sum, n), i| (sum + state.pressure[i], n + 1.0));
+            let (now, level) = ((flow.time, sum / n), 0.5 * height);
+            if passed[k].is_none() && now.1 > level {
+                let share = (level - before[k].1) / (now.1 - before[k].1);
+                passed[k] = Some(before[k].0 + share * (now.0 - before[k].0));
+            }
+            before[k] = now;
+        }
+    }
+    let [Some(first), Some(second)] = passed else { panic!("the pulse does not arrive: {passed:?}") };
+    let speed = (places[1] - places[0]) / (second - first);
+    println!("{speed:.3} m/s, {:.4} of {expected:.3} m/s", speed / expected);
+    assert!((speed / expected - 1.0).abs() < 0.03, "{speed}");
+    assert_eq!(flow.watch.escaped, 0);
+}

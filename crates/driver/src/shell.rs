@@ -35,6 +35,8 @@ const DAMPING: f64 = 0.05;
 const QUASI_STATIC_DAMPING: f64 = 0.5;
 /// Points through the thickness of a neo-Hookean shell.
 const POINTS: usize = 3;
+/// Thickness over the spacing of the blood below which a shell has been seen to ring (`docs/theory/coupling.md`).
+const RINGS: f64 = 0.4;
 /// Thickness over the radius of the narrowest opening above which stresses of a shell are doubtful.
 const THICK: f64 = 0.2;
 
@@ -73,6 +75,13 @@ impl PlannedShell {
             warnings.push(format!(
                 "the wall is {share:.2} times as thick as the narrowest opening is wide in radius; the stress of a shell is \
                  wrong by about half of that: take `wall.model` = \"solid\""
+            ));
+        }
+        let in_spacings = self.thickness / case.scene.particles.spacing;
+        if in_spacings < RINGS {
+            warnings.push(format!(
+                "the wall is {in_spacings:.2} spacings of the blood thick; below {RINGS} a shell rings, and a light one breaks down: make \
+                 `particles.spacing` smaller"
             ));
         }
         warnings
