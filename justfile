@@ -39,7 +39,7 @@ validate-shells:
 =======
 # Blood in elastic tubes, with the figures printed; a quarter of an hour on two cores.
 validate-walls:
-    cargo test --release -p vaso-tests --test elastic_tube --test moving_wall -- --include-ignored --nocapture
+    cargo test --release -p vaso-tests --test elastic_tube --test moving_wall --test shell_walls -- --include-ignored --nocapture
 >>>>>>> fsi
 
 # Micro-benchmarks.

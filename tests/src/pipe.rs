@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use glam::{DQuat, DVec3};
+use vaso_driver::deforming::Deforming;
 use vaso_driver::{Case, Flow, Plan, world};
 use vaso_fluid::Real;
 use vaso_geometry::{shapes, write_stl};
@@ -145,9 +146,17 @@ impl Pipe {
     /// # Panics
     /// When the case is wrong: these are the project's own.
     pub fn flow<R: Real>(&self) -> (Flow<R>, Case, Plan) {
+        self.flow_in()
+    }
+
+    /// The same in a wall of kind `W`, where it deforms.
+    ///
+    /// # Panics
+    /// When the case is wrong: these are the project's own.
+    pub fn flow_in<R: Real, W: Deforming>(&self) -> (Flow<R, W>, Case, Plan) {
         let (case, plan) = self.plan();
         let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-        let flow = world::build_flow(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
+        let flow = world::build_flow_in(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
         (flow, case, plan)
     }
 }

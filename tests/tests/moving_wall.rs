@@ -42,7 +42,7 @@ fn run(across: f64, strain: f64, time: f64, end: f64) -> Squeezed {
     let (case, mut plan) = pipe.plan();
     plan.numbers.reference_speed = 0.1;
     let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    let wall = bodies.wall.clone();
+    let wall = bodies.wall.layers().expect("a rigid wall has layers").clone();
     let rigid: Flow<f32> = world::build_flow(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
     let (radius, length, margin) = (pipe.radius(), pipe.length, 6.0 * pipe.spacing());
     // The wall keeps its volume, so its particles stay as far apart.

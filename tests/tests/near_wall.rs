@@ -65,8 +65,9 @@ fn by_formula(across: f64) -> [[f64; 2]; 3] {
     let (_, plan, bodies) = bodies(across);
     let kernel = Wendland::new(plan.numbers.smoothing_length);
     let (n, support) = (bodies.fluid.position.len(), kernel.support());
-    let position = [bodies.fluid.position, bodies.wall.position].concat();
-    let volume = [bodies.fluid.volume, bodies.wall.volume].concat();
+    let wall = bodies.wall.layers().expect("a rigid wall has layers");
+    let position = [bodies.fluid.position, wall.position.clone()].concat();
+    let volume = [bodies.fluid.volume, wall.volume.clone()].concat();
     let low = position.iter().fold(DVec3::INFINITY, |a, b| a.min(*b));
     let high = position.iter().fold(DVec3::NEG_INFINITY, |a, b| a.max(*b));
     let mut grid = CellGrid::new((low, high), support);

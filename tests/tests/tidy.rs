@@ -22,7 +22,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("metrics", &["geometry", "kernels", "particles"]),
     ("io", &["particles"]),
     ("boundary", &["fluid", "geometry", "particles"]),
-    ("coupling", &["fluid", "particles", "solid"]),
+    ("coupling", &["fluid", "kernels", "particles", "shell", "solid"]),
     ("report", &["io"]),
     (
         "driver",
@@ -38,6 +38,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "boundary",
             "coupling",
             "solid",
+            "shell",
             "metrics",
             "report",
         ],

@@ -1,9 +1,14 @@
 #![doc = include_str!("../README.md")]
 
+mod columns;
 mod coupling;
+mod ownership;
 mod prescribed;
+mod shell_wall;
 mod wall;
 
+pub use columns::{Foot, GhostColumns};
 pub use coupling::Coupling;
 pub use prescribed::Prescribed;
+pub use shell_wall::ShellWall;
 pub use wall::{CouplingError, MovingWall};

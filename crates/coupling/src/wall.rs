@@ -1,6 +1,7 @@
 //! What a wall that moves has to be able to do, and the solid that can.
 
 use vaso_particles::{WallLoad, WallView};
+use vaso_shell::ShellError;
 use vaso_solid::{Real, Solid, SolidError};
 
 /// A wall that cannot go on.
@@ -10,6 +11,9 @@ pub enum CouplingError {
     /// The solid of the wall says why.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// The shell of the wall says why.
+    #[error(transparent)]
+    Shell(#[from] ShellError),
 }
 
 /// A wall that moves, under forces of the fluid or of itself.

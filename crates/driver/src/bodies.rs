@@ -159,16 +159,28 @@ pub(crate) fn wall_spacing(wall: &ElasticWall, spacing: f64) -> f64 {
 /// Relaxation steps of a shell over those of the case: it starts from random places on its triangles, not from a lattice.
 const SHELL_STEPS: f64 = 2.5;
 
+/// Spacing \[m\] of the wall of one layer: that of the blood, unless the case gives another.
+pub(crate) fn shell_spacing(scene: &Scene) -> f64 {
+    let given = if let vaso_scene::Wall::Shell(wall) = &scene.wall { wall.spacing } else { None };
+    given.unwrap_or(scene.particles.spacing)
+}
+
 /// Settings of the shell that a scene asks for.
 pub fn shell_settings(scene: &Scene) -> ShellSettings {
-    let spacing = scene.particles.spacing;
+    let spacing = shell_spacing(scene);
+    let is_wall = matches!(scene.wall, vaso_scene::Wall::RigidShell | vaso_scene::Wall::Shell(_));
+    // Blood near a cap has to see a wall all around.
+    let usual_ends = if is_wall && scene.blood.is_some() { OpenEnds::Collar } else { OpenEnds::ClosestCap };
     let usual = ShellSettings::new(spacing, scene.wall_body.thickness.unwrap_or(spacing));
     ShellSettings {
         reference: match scene.wall {
             vaso_scene::Wall::Shell(_) => ShellReference::MidSurface,
             _ => ShellReference::Lumen,
         },
-        collar: if scene.wall_body.open_ends == Some(OpenEnds::Collar) { support(scene) } else { 0.0 },
+        collar: match scene.wall_body.open_ends.unwrap_or(usual_ends) {
+            OpenEnds::Collar => support(scene),
+            OpenEnds::ClosestCap | OpenEnds::Boxes => 0.0,
+        },
         steps: (SHELL_STEPS * f64::from(scene.particles.relaxation_steps)) as usize,
         seed: scene.numerics.seed,
         ..usual

@@ -2,8 +2,10 @@
 
 use crate::flow::Flow;
 use std::path::Path;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::{Archive, IoError};
+use vaso_particles::Columns;
 
 /// Kind of the archive.
 pub const KIND: &str = "checkpoint";
@@ -14,7 +16,7 @@ pub const VERSION: u32 = 1;
 ///
 /// # Errors
 /// When the disk or the folder refuses; an older checkpoint then stays.
-pub fn write<R: Real>(folder: &Path, flow: &mut Flow<R>) -> Result<(), IoError> {
+pub fn write<R: Real, W: MovingWall + Columns>(folder: &Path, flow: &mut Flow<R, W>) -> Result<(), IoError> {
     let mut archive = Archive::new(KIND, VERSION);
     archive.put_columns("fluid", &mut flow.fluid.state);
     if let Some(wall) = &mut flow.wall {

@@ -2,6 +2,7 @@
 
 use crate::case::Case;
 use crate::plan::PlannedOpening;
+use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
 use std::f64::consts::PI;
 use vaso_boundary::Condition;
@@ -141,6 +142,8 @@ const SUBSTEP_MIXED: f64 = 0.55e-6;
 const SUBSTEP_DOUBLE: f64 = 0.78e-6;
 /// Time a particle of a solid takes a core for one sub-step \[s\]: measured, see `docs/theory/solids.md`.
 const SUBSTEP_SOLID: f64 = 0.28e-6;
+/// Time a particle of a shell takes a core for one sub-step \[s\]: measured, see `docs/theory/shells.md`.
+const SUBSTEP_SHELL: f64 = 0.34e-6;
 /// Time a particle of any body takes a core to be made \[s\].
 const GENERATION: f64 = 0.2e-3;
 /// Bytes a fluid particle takes, rows included.
@@ -148,12 +151,14 @@ const BYTES_MIXED: f64 = 2000.0;
 const BYTES_DOUBLE: f64 = 2800.0;
 /// Bytes a particle of a wall takes, rows included.
 const BYTES_WALL: f64 = 400.0;
+/// Bytes of a column over those of a particle of a wall: its ghosts are rows and records as well.
+const BYTES_SHELL: f64 = 4.0;
 
-/// Expected particles, memory and time of a run.
+/// Expected particles, memory and time of a run, with a wall that is a solid, a shell or at rest.
 pub fn cost(
     case: &Case,
     numbers: &Numbers,
-    solid: Option<&PlannedWall>,
+    (solid, shell): (Option<&PlannedWall>, Option<&PlannedShell>),
     precision: Precision,
     end_time: f64,
 ) -> Predicted {
@@ -166,7 +171,14 @@ pub fn cost(
     let radius = 2.0 * case.vessel.surface.volume() / area;
     let collars: f64 =
         case.vessel.openings.iter().map(|o| 2.0 * PI * o.radius * 2.0 * numbers.smoothing_length).sum();
-    let wall = (area + collars) * layer * (1.0 + 0.5 * layer / radius) / wall_spacing.powi(3);
+    let layers = (area + collars) * layer * (1.0 + 0.5 * layer / radius) / wall_spacing.powi(3);
+    let one_layer = match &case.scene.wall {
+        vaso_scene::Wall::Rigid | vaso_scene::Wall::Solid(_) => 0.0,
+        vaso_scene::Wall::RigidShell | vaso_scene::Wall::Shell(_) => {
+            (area + collars) / crate::bodies::shell_spacing(&case.scene).powi(2)
+        }
+    };
+    let wall = if one_layer > 0.0 { 0.0 } else { layers };
     let step = numbers.acoustic_step(0.5 * numbers.reference_speed);
     let (substep, bytes) = match precision {
         Precision::Mixed => (SUBSTEP_MIXED, BYTES_MIXED),
@@ -176,11 +188,22 @@ pub fn cost(
         let own = s.numbers.stable_step(s.material.wave_speed(s.numbers.density), 0.0);
         wall * (end_time / step) * (step / own).ceil() * SUBSTEP_SOLID
     });
+    let shell_time = shell.map_or(0.0, |s| {
+        let own = s.numbers.expected_step(&s.material, s.thickness);
+        one_layer * (end_time / step) * (step / own).ceil() * SUBSTEP_SHELL
+    });
     let threads = rayon::current_num_threads() as f64;
     Predicted {
-        particles: ParticleCounts { fluid: fluid.round() as u64, wall: wall.round() as u64, shell: 0 },
-        memory_bytes: (fluid * bytes + wall * BYTES_WALL) as u64,
-        wall_clock_s: (fluid * (end_time / step) * substep + solid_time + (fluid + wall) * GENERATION)
+        particles: ParticleCounts {
+            fluid: fluid.round() as u64,
+            wall: wall.round() as u64,
+            shell: one_layer.round() as u64,
+        },
+        memory_bytes: (fluid * bytes + (wall + BYTES_SHELL * one_layer) * BYTES_WALL) as u64,
+        wall_clock_s: (fluid * (end_time / step) * substep
+            + solid_time
+            + shell_time
+            + (fluid + wall + one_layer) * GENERATION)
             / threads,
     }
 }

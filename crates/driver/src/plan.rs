@@ -5,6 +5,7 @@ use crate::conditions;
 pub use crate::conditions::PlannedOpening;
 use crate::error::DriverError;
 use crate::estimate;
+use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
 use crate::{start, supported, timing};
 use vaso_boundary::Condition;
@@ -21,8 +22,10 @@ pub struct Plan {
     pub sound_speed_reason: String,
     /// Openings with their conditions, largest first.
     pub openings: Vec<PlannedOpening>,
-    /// The wall, where it deforms.
+    /// The wall, where it is a solid.
     pub wall: Option<PlannedWall>,
+    /// The wall, where it is a shell that deforms.
+    pub shell: Option<PlannedShell>,
     /// Pressure the equation of state is relative to \[Pa\]; `None` follows the first pressure outlet, or else the
     /// outlet models.
     pub reference_pressure: Option<f64>,
@@ -59,6 +62,11 @@ const PULSE_FACTOR: f64 = 7.0;
 const DENSITY_CHANGE: f64 = 0.01;
 
 impl Plan {
+    /// Whether the wall deforms.
+    pub fn deforms(&self) -> bool {
+        self.wall.is_some() || self.shell.is_some()
+    }
+
     /// Plans a case.
     ///
     /// # Errors
@@ -75,16 +83,18 @@ impl Plan {
 
         // Where walls deform the reference has to stay what it is: see the decision on the uniform pressure.
         let reference_pressure = match &scene.wall {
-            vaso_scene::Wall::Solid(wall) => {
+            vaso_scene::Wall::Solid(wall) | vaso_scene::Wall::Shell(wall) => {
                 Some(scene.numerics.reference_pressure.unwrap_or(wall.unloaded_pressure))
             }
             _ => scene.numerics.reference_pressure,
         };
         let wall = PlannedWall::new(case, reference_pressure.unwrap_or(0.0))?;
+        let shell = PlannedShell::new(case, reference_pressure.unwrap_or(0.0))?;
         let flow = estimate::Flow::new(&case.vessel, &openings, density, viscosity, ramp, reference_pressure);
         let by_speed = scene.numerics.sound_speed_factor * flow.top_speed;
         let by_pressure = (flow.pressure_range / (DENSITY_CHANGE * density)).sqrt();
-        let by_wave = wall.as_ref().map_or(0.0, |wall| PULSE_FACTOR * wall.pulse_speed);
+        let pulse_speed = wall.as_ref().map(|w| w.pulse_speed).or(shell.as_ref().map(|s| s.pulse_speed));
+        let by_wave = PULSE_FACTOR * pulse_speed.unwrap_or(0.0);
         let (sound_speed, sound_speed_reason) = match scene.numerics.sound_speed {
             Some(given) => (given, "given in the case".to_owned()),
             None if by_wave >= by_speed.max(by_pressure) => (
@@ -128,6 +138,7 @@ impl Plan {
         let settings = crate::bodies::settings(scene);
         warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(ToString::to_string));
         warnings.extend(wall.iter().flat_map(PlannedWall::warnings));
+        warnings.extend(shell.iter().flat_map(|shell| shell.warnings(case)));
         if across < 12.0 {
             warnings.push(format!(
                 "{across:.1} particles lie across the narrowest opening; flow patterns want 12, wall shear stress 20"
@@ -141,7 +152,8 @@ impl Plan {
         }
         let precision = scene.numerics.precision;
         let isa = Isa::detect();
-        let predicted = estimate::cost(case, &numbers, wall.as_ref(), precision, scene.run.end_time);
+        let predicted =
+            estimate::cost(case, &numbers, (wall.as_ref(), shell.as_ref()), precision, scene.run.end_time);
         let womersley = scene
             .run
             .period
@@ -159,8 +171,9 @@ impl Plan {
             wall_metrics: scene.output.fields.iter().any(|f| supported::is_shear(*f)),
             reynolds_peak: flow.reynolds_peak,
             womersley,
-            effects: supported::effects(scene, &openings, wall.as_ref()),
+            effects: supported::effects(scene, &openings, wall.as_ref(), shell.as_ref()),
             wall,
+            shell,
             predicted,
             warnings,
             openings,

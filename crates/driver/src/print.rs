@@ -57,17 +57,27 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         n.rest_density,
         viscosity
     );
-    let kind = match &plan.wall {
-        None => "rigid, four layers".to_owned(),
-        Some(wall) => format!(
+    let kind = match (&plan.wall, &plan.shell) {
+        (Some(wall), _) => format!(
             "solid, {:.1} layers   spacing {:.3} mm   density {} kg/m3   pulse wave {:.2} m/s",
             wall.layers(),
             wall.numbers.spacing * 1e3,
             wall.numbers.density,
             wall.pulse_speed
         ),
+        (None, Some(shell)) => format!(
+            "deforms, {:.3} mm thick   spacing {:.3} mm   density {} kg/m3   pulse wave {:.2} m/s",
+            shell.thickness * 1e3,
+            shell.numbers.spacing * 1e3,
+            shell.numbers.density,
+            shell.pulse_speed
+        ),
+        (None, None) if p.particles.shell > 0 => "rigid, one layer with ghosts behind it".to_owned(),
+        (None, None) => "rigid, four layers".to_owned(),
     };
-    let _ = writeln!(out, "         vessel  wall  {:>9}   {kind}", p.particles.wall);
+    let (body, n_wall) =
+        if p.particles.shell > 0 { ("shell", p.particles.shell) } else { ("wall", p.particles.wall) };
+    let _ = writeln!(out, "         vessel  {body:<5} {n_wall:>9}   {kind}");
     let reach = n.smoothing_length / n.spacing * 2.0;
     let _ = writeln!(
         out,
@@ -99,9 +109,9 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         plan.reference_pressure.map_or_else(
             || "the first pressure outlet is the reference, or else the common pressure of the outlet models: the uniform part stays \
              out of the equation of state".to_owned(),
-            |p| match plan.wall {
-                None => format!("relative to {p} Pa, as given in the case"),
-                Some(_) => format!("relative to {p} Pa at all times, as the wall deforms"),
+            |p| {
+                let why = if plan.deforms() { "at all times, as the wall deforms" } else { "as given in the case" };
+                format!("relative to {p} Pa{}{why}", if plan.deforms() { " " } else { ", " })
             },
         )
     );

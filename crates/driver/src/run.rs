@@ -1,19 +1,22 @@
 //! `vaso run`: from the case to the report.
 
 use crate::case::Case;
+use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::flow::{Diverged, Flow};
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::results::{Results, append_frame};
-use crate::world::{Bodies, build_flow};
+use crate::world::{Bodies, build_flow_in};
 use crate::{checkpoint, print};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+use vaso_coupling::{MovingWall, ShellWall};
 use vaso_fluid::Real;
 use vaso_io::{EndReason, IoError, OutputDir, SeriesWriter, Status, Summary};
-use vaso_scene::Precision;
+use vaso_scene::{Precision, Wall};
+use vaso_solid::Solid;
 
 /// How a command talks to the person.
 pub struct Talk {
@@ -56,7 +59,7 @@ pub fn run(
     talk.say(&format!(
         "made     {} fluid and {} wall particles in {:.1} s{}",
         bodies.fluid.position.len(),
-        bodies.wall.position.len(),
+        bodies.wall.len(),
         bodies.seconds.iter().sum::<f64>(),
         if bodies.cached { " (from the cache)" } else { "" }
     ));
@@ -67,14 +70,18 @@ pub fn run(
     }
     let plan = &plan;
     let out = OutputDir::prepare(out, force)?;
-    match plan.precision {
-        Precision::Mixed => run_precision::<f32>(case, plan, bodies, &out, stop, talk, progress, started),
-        Precision::Double => run_precision::<f64>(case, plan, bodies, &out, stop, talk, progress, started),
-    }
+    let is_shell = matches!(case.scene.wall, Wall::Shell(_));
+    let run = match (plan.precision, is_shell) {
+        (Precision::Mixed, false) => run_kind::<f32, Solid<f32>>,
+        (Precision::Double, false) => run_kind::<f64, Solid<f64>>,
+        (Precision::Mixed, true) => run_kind::<f32, ShellWall<f32>>,
+        (Precision::Double, true) => run_kind::<f64, ShellWall<f64>>,
+    };
+    run(case, plan, bodies, &out, stop, talk, progress, started)
 }
 
 #[expect(clippy::too_many_arguments, reason = "the one place where all parts of a run meet")]
-fn run_precision<R: Real>(
+fn run_kind<R: Real, W: Deforming>(
     case: &Case,
     plan: &Plan,
     bodies: Bodies,
@@ -84,9 +91,9 @@ fn run_precision<R: Real>(
     mut progress: Progress,
     started: Instant,
 ) -> Result<Summary, DriverError> {
-    let n_wall = bodies.wall.position.len();
-    let mut flow = build_flow::<R>(case, plan, bodies)?;
-    let mut results = Results::create(out, case, plan)?;
+    let counts = bodies.counts();
+    let mut flow = build_flow_in::<R, W>(case, plan, bodies)?;
+    let mut results = Results::create(out, case, plan, &flow)?;
     let ended = advance(&mut flow, &mut results, case, plan, stop, &mut progress);
     progress.finish();
     let (ended, settled) = match ended {
@@ -96,7 +103,7 @@ fn run_precision<R: Real>(
     if let Some((_, words)) = &settled {
         talk.say(&format!("ended early at {:.4} s: {words}", flow.time));
     }
-    let mut summary = results.summary(&mut flow, case, plan, n_wall, started.elapsed().as_secs_f64());
+    let mut summary = results.summary(&mut flow, case, plan, counts, started.elapsed().as_secs_f64());
     summary.end_reason = ended.is_ok().then(|| settled.as_ref().map_or(EndReason::EndTime, |s| s.0));
     summary.message = settled.map(|s| s.1);
     if ended.is_ok() {
@@ -117,9 +124,9 @@ fn run_precision<R: Real>(
 }
 
 /// Goes on to the end, or to where the results say that it has settled; tells why then.
-fn advance<R: Real>(
-    flow: &mut Flow<R>,
-    results: &mut Results,
+fn advance<R: Real, W: Deforming>(
+    flow: &mut Flow<R, W>,
+    results: &mut Results<W::File>,
     case: &Case,
     plan: &Plan,
     stop: &AtomicBool,
@@ -144,7 +151,12 @@ fn advance<R: Real>(
 }
 
 /// Leaves the broken state beside the results; the series keeps only sound frames.
-fn post_mortem<R: Real>(flow: &Flow<R>, results: &Results, case: &Case, diverged: Diverged) -> DriverError {
+fn post_mortem<R: Real, W: MovingWall, F>(
+    flow: &Flow<R, W>,
+    results: &Results<F>,
+    case: &Case,
+    diverged: Diverged,
+) -> DriverError {
     let file: PathBuf = results.folder().join("failure.vtkhdf");
     let mut series = SeriesWriter::create(file);
     match append_frame(&mut series, flow, &case.scene.output.fields) {

@@ -8,7 +8,7 @@ use glam::DVec3;
 use vaso_boundary::BUFFER_LENGTH;
 use vaso_fluid::Real;
 use vaso_generation::Body;
-use vaso_geometry::Vessel;
+use vaso_geometry::{Opening, Vessel};
 use vaso_scene::Wall;
 use vaso_scene::material::{Damping, ElasticWall, Elasticity, Ends, Material as SceneMaterial};
 
@@ -70,7 +70,7 @@ impl PlannedWall {
             thickness: wall.thickness,
             pulse_speed: (stiffness / (2.0 * blood.density * radius)).sqrt(),
             carried_pressure: reference_pressure - wall.unloaded_pressure,
-            implicit_impedance: (wall.thickness < THIN * scene.particles.spacing).then_some(IMPLICIT_SHARE),
+            implicit_impedance: implicit_impedance(wall, scene.particles.spacing),
         }))
     }
 
@@ -169,18 +169,8 @@ fn hold<R: Real>(
     body: &Body,
     thickness: f64,
 ) -> Result<(), SolidError> {
-    let spacing = case.scene.particles.spacing;
-    let ring = (BUFFER_LENGTH * spacing).max(bodies::support(&case.scene));
-    let lateral = thickness + LATERAL * spacing;
     for opening in &case.vessel.openings {
-        let is_held = |&i: &u32| {
-            let x = body.position[i as usize];
-            let away = (x - opening.center).reject_from_normalized(opening.normal);
-            opening.depth(x).abs() < ring
-                && opening.lateral(x) < lateral
-                && away.dot(body.normal[i as usize]) > 0.0
-        };
-        let held: Vec<u32> = (0..body.position.len() as u32).filter(is_held).collect();
+        let held = ring(case, opening, thickness, &body.position, &body.normal);
         match ends {
             Ends::Clamped => solid.clamp(&held)?,
             Ends::Sliding => solid.slide(&held, opening.normal)?,
@@ -188,6 +178,30 @@ fn hold<R: Real>(
         }
     }
     Ok(())
+}
+
+/// Particles of the ring at `opening`, of a wall of `thickness` \[m\] at `position` with `normal` away from the lumen.
+pub(crate) fn ring(
+    case: &Case,
+    opening: &Opening,
+    thickness: f64,
+    position: &[DVec3],
+    normal: &[DVec3],
+) -> Vec<u32> {
+    let spacing = case.scene.particles.spacing;
+    let length = (BUFFER_LENGTH * spacing).max(bodies::support(&case.scene));
+    let lateral = thickness + LATERAL * spacing;
+    let is_held = |&i: &u32| {
+        let x = position[i as usize];
+        let away = (x - opening.center).reject_from_normalized(opening.normal);
+        opening.depth(x).abs() < length && opening.lateral(x) < lateral && away.dot(normal[i as usize]) > 0.0
+    };
+    (0..position.len() as u32).filter(is_held).collect()
+}
+
+/// Share of the impedance that a wall takes implicitly in blood of a `spacing` \[m\], where it is thin.
+pub(crate) fn implicit_impedance(wall: &ElasticWall, spacing: f64) -> Option<f64> {
+    (wall.thickness < THIN * spacing).then_some(IMPLICIT_SHARE)
 }
 
 #[derive(Clone, Copy, PartialEq)]

@@ -1,9 +1,10 @@
 //! What this version can run, and every effect it knows.
 
-use crate::bodies::{wall_shape, wall_spacing};
+use crate::bodies::{shell_settings, shell_spacing, wall_shape, wall_spacing};
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::PlannedOpening;
+use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
 use crate::timing;
 use vaso_boundary::{Condition, Source};
@@ -37,23 +38,24 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
             scene.file.display()
         ));
     };
-    let is_solid = matches!(scene.wall, Wall::Solid(_));
-    if !is_solid && !matches!(scene.wall, Wall::Rigid) {
-        let seen = if matches!(scene.wall, Wall::RigidShell) { "rigid-shell" } else { "shell" };
-        refuse("wall.model".into(), seen, "\"rigid\", \"solid\"");
-    } else if !matches!(ends, Ends::Collar { .. }) {
+    let is_elastic = matches!(scene.wall, Wall::Solid(_) | Wall::Shell(_));
+    let has_collar = match scene.wall {
+        Wall::Rigid | Wall::Solid(_) => matches!(ends, Ends::Collar { .. }),
+        Wall::RigidShell | Wall::Shell(_) => shell_settings(scene).collar > 0.0,
+    };
+    if !has_collar {
         let seen = if matches!(ends, Ends::Boxes) { "boxes" } else { "closest-cap" };
         refuse("wall.open_ends".into(), seen, "\"collar\"");
     }
     for field in &scene.output.fields {
-        if is_solid && is_shear(*field) {
+        if is_elastic && is_shear(*field) {
             refuse(
                 "output.fields".into(),
                 field.word(),
                 "where the wall deforms, fields of the blood and \"displacement\", \"von_mises\"",
             );
         }
-        if !is_solid && matches!(field, Field::Displacement | Field::VonMises) {
+        if !is_elastic && matches!(field, Field::Displacement | Field::VonMises) {
             refuse(
                 "output.fields".into(),
                 field.word(),
@@ -61,15 +63,25 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
             );
         }
     }
-    if let Wall::Solid(wall) = &scene.wall {
+    if let Wall::Solid(wall) | Wall::Shell(wall) = &scene.wall {
+        let is_shell = matches!(scene.wall, Wall::Shell(_));
         if matches!(wall.material, Material::HolzapfelGasserOgden { .. }) {
             refuse(
                 "wall.material".into(),
                 "holzapfel-gasser-ogden",
-                "\"neo-hookean\", \"saint-venant-kirchhoff\", \"hypoelastic\"; its fibres need directions that nothing finds yet",
+                "\"neo-hookean\", \"saint-venant-kirchhoff\", of a solid also \"hypoelastic\"; its fibres need directions that nothing \
+                 finds yet",
             );
         }
-        let (own, blood) = (wall_spacing(wall, scene.particles.spacing), scene.particles.spacing);
+        if is_shell && matches!(wall.material, Material::Hypoelastic(_)) {
+            refuse(
+                "wall.material".into(),
+                "hypoelastic",
+                "for a shell \"neo-hookean\", \"saint-venant-kirchhoff\"",
+            );
+        }
+        let blood = scene.particles.spacing;
+        let own = if is_shell { shell_spacing(scene) } else { wall_spacing(wall, blood) };
         if own > blood * (1.0 + 1e-9) {
             problems.push(format!(
                 "{}: `wall.spacing` is {:.4} mm, wider than the {:.4} mm of the blood, which would see gaps in the wall; make \
@@ -142,6 +154,7 @@ pub(crate) fn effects(
     scene: &Scene,
     openings: &[PlannedOpening],
     wall: Option<&PlannedWall>,
+    shell: Option<&PlannedShell>,
 ) -> Vec<EffectEntry> {
     let named = |test: &dyn Fn(&Condition) -> bool| {
         let names: Vec<&str> =
@@ -177,6 +190,17 @@ pub(crate) fn effects(
         };
         EffectEntry { name: name.into(), on: active, called_for: active, reason, seconds: None, bytes: None }
     };
+    let model = match scene.wall {
+        Wall::Rigid => "rigid",
+        Wall::RigidShell => "rigid-shell",
+        Wall::Solid(_) => "solid",
+        Wall::Shell(_) => "shell",
+    };
+    let of_model = |name: &str, is_on: bool, reason: String| EffectEntry {
+        on: is_on,
+        called_for: is_on,
+        ..on(name, if is_on { reason } else { format!("`wall.model` is \"{model}\"") })
+    };
     let shear: Vec<&str> = scene.output.fields.iter().filter(|f| is_shear(**f)).map(|f| f.word()).collect();
     let shear = shear.join(", ");
     let has_period = timing::period(scene, openings).is_some();
@@ -204,33 +228,27 @@ pub(crate) fn effects(
             "kernel sums at a wall or in disorder are 1 to 3 % off without it".into(),
         ),
         on("blood.transport_velocity", "keeps particles evenly spread along streamlines".into()),
+        of_model(
+            "wall.rigid",
+            matches!(scene.wall, Wall::Rigid),
+            "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach".into(),
+        ),
+        of_model(
+            "wall.rigid_shell",
+            matches!(scene.wall, Wall::RigidShell),
+            "`wall.model` is \"rigid-shell\": one layer of fixed particles, with ghosts behind it".into(),
+        ),
+        of_model("wall.solid", wall.is_some(), wall.map_or(String::new(), PlannedWall::reason)),
+        of_model("wall.shell", shell.is_some(), shell.map_or(String::new(), PlannedShell::reason)),
         EffectEntry {
-            on: wall.is_none(),
-            called_for: wall.is_none(),
-            ..on(
-                "wall.rigid",
-                match wall {
-                    None => {
-                        "`wall.model` is \"rigid\": four layers of fixed particles, three of them in reach"
-                            .into()
-                    }
-                    Some(_) => "`wall.model` is \"solid\"".into(),
-                },
-            )
-        },
-        EffectEntry {
-            on: wall.is_some(),
-            called_for: wall.is_some(),
-            ..on("wall.solid", wall.map_or("`wall.model` is \"rigid\"".into(), PlannedWall::reason))
-        },
-        EffectEntry {
-            on: wall.is_some(),
-            called_for: wall.is_some(),
+            on: wall.is_some() || shell.is_some(),
+            called_for: wall.is_some() || shell.is_some(),
             ..on(
                 "wall.coupling",
-                match wall {
-                    None => "the wall does not move".into(),
-                    Some(_) => "the wall gets the forces it has on the blood, and shows where it is".into(),
+                if wall.is_some() || shell.is_some() {
+                    "the wall gets the forces it has on the blood, and shows where it is".into()
+                } else {
+                    "the wall does not move".into()
                 },
             )
         },

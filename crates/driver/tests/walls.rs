@@ -76,6 +76,48 @@ fn a_wall_that_deforms_is_told_of_with_its_energies() {
     }
 }
 
+const SHELL: [&str; 3] = ["wall.model=shell", "wall.thickness=0.6 mm", "wall.young_modulus=0.5 MPa"];
+
+#[test]
+fn a_shell_is_told_of_as_triangles_with_the_stress_of_both_faces() {
+    let folder = pipe();
+    let told = summary(run(folder.path(), "shell", &SHELL));
+    let shell = &told["shell"];
+    let value = |name: &str| shell[name].as_f64().unwrap_or_else(|| panic!("{name} in {shell}"));
+    assert!(value("max_displacement_m") > 0.0 && value("membrane_j") > 0.0 && value("blood_work_j") > 0.0);
+    assert!((value("load_work_j") / value("blood_work_j") - 1.0).abs() < 0.05, "{shell}");
+    assert!(value("balance_j").abs() < 0.05 * value("load_work_j"), "{shell}");
+    let n_shell = told["particles"]["shell"].as_f64().expect("a number");
+    assert!(told["solid"].is_null() && told["particles"]["wall"] == 0 && n_shell > 0.0);
+    // Three within 2.6 spacings.
+    assert!(value("ghosts") > 2.9 * n_shell && value("ghosts") <= 3.0 * n_shell);
+    assert_eq!(told["stability"]["escaped_particles"], 0);
+    for name in ["wall.shell", "wall.coupling"] {
+        let effect = effect(&told, name);
+        assert!(effect["on"] == true && effect["bytes"].as_u64() > Some(0), "{effect}");
+    }
+    assert!(effect(&told, "wall.solid")["on"] == false && effect(&told, "wall.rigid")["on"] == false);
+    let series = SeriesReader::open(&folder.path().join("shell/wall.vtkhdf")).expect("the wall is there");
+    assert!(series.triangles().is_ok_and(|triangles| triangles.len() > 100));
+    let names: Vec<&str> = series.info().fields.iter().map(|f| f.name.as_str()).collect();
+    for name in
+        ["Displacement", "Velocity", "VonMisesInner", "PrincipalStressOuterMax", "Thickness", "CurvatureMax"]
+    {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+}
+
+#[test]
+fn a_rigid_shell_is_one_layer_at_rest() {
+    let folder = pipe();
+    let told = summary(run(folder.path(), "rigid-shell", &["wall.model=rigid-shell"]));
+    assert!(told["shell"].is_null() && told["particles"]["wall"] == 0 && told["particles"]["shell"] != 0);
+    assert!(effect(&told, "wall.rigid_shell")["on"] == true && effect(&told, "wall.shell")["on"] == false);
+    assert!(effect(&told, "wall.coupling")["seconds"].is_null());
+    assert_eq!(told["stability"]["escaped_particles"], 0);
+    assert!(!folder.path().join("rigid-shell/wall.vtkhdf").exists());
+}
+
 #[test]
 fn a_rigid_wall_has_nothing_of_a_solid() {
     let folder = pipe();
@@ -106,4 +148,9 @@ fn what_walls_that_deform_cannot_do_yet_is_refused_by_name() {
     refused(&["output.fields=[\"wss\"]"], &["`output.fields`", "wss"]);
     refused(&["wall.spacing=1.2 mm"], &["`wall.spacing`", "at most"]);
     refused(&["wall.open_ends=closest-cap"], &["`wall.open_ends`", "collar"]);
+    let of_shell = |setting| ["wall.model=shell", "wall.spacing=0.9 mm", setting];
+    refused(&of_shell("wall.material=hypoelastic"), &["`wall.material`", "neo-hookean"]);
+    refused(&of_shell("wall.spacing=1.2 mm"), &["`wall.spacing`", "at most"]);
+    refused(&of_shell("output.fields=[\"wss\"]"), &["`output.fields`", "wss"]);
+    refused(&of_shell("wall.open_ends=closest-cap"), &["`wall.open_ends`", "collar"]);
 }

@@ -13,6 +13,7 @@ mod output;
 pub mod particles;
 pub mod schema;
 mod series;
+mod shell;
 mod solid;
 mod summary;
 mod table;
@@ -35,6 +36,7 @@ pub use series::{
     FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, SurfaceField, SurfaceFrame,
     SurfaceMesh, SurfaceSeriesWriter, read_series_info,
 };
+pub use shell::ShellSummary;
 pub use solid::SolidSummary;
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};

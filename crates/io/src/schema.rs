@@ -22,6 +22,12 @@ pub const FIELDS: &[(&str, &str)] = &[
     (PEAK_WSS, "Pa"),
     (NORMAL, "1"),
     (THICKNESS, "m"),
+    (VON_MISES_INNER, "Pa"),
+    (VON_MISES_OUTER, "Pa"),
+    (STRESS_INNER_MAX, "Pa"),
+    (STRESS_INNER_MIN, "Pa"),
+    (STRESS_OUTER_MAX, "Pa"),
+    (STRESS_OUTER_MIN, "Pa"),
     (VOLUME, "m^3"),
     (DEPTH, "m"),
     (AREA, "m^2"),
@@ -65,6 +71,18 @@ pub const TRANSVERSE_WSS: &str = "TransverseWSS";
 pub const PEAK_WSS: &str = "PeakWSS";
 /// Unit normal of the wall.
 pub const NORMAL: &str = "Normal";
+/// Von Mises stress on the face of the lumen of a shell \[Pa\].
+pub const VON_MISES_INNER: &str = "VonMisesInner";
+/// Von Mises stress on the outer face of a shell \[Pa\].
+pub const VON_MISES_OUTER: &str = "VonMisesOuter";
+/// The larger principal stress in the face of the lumen of a shell \[Pa\].
+pub const STRESS_INNER_MAX: &str = "PrincipalStressInnerMax";
+/// The smaller one \[Pa\].
+pub const STRESS_INNER_MIN: &str = "PrincipalStressInnerMin";
+/// The larger principal stress in the outer face of a shell \[Pa\].
+pub const STRESS_OUTER_MAX: &str = "PrincipalStressOuterMax";
+/// The smaller one \[Pa\].
+pub const STRESS_OUTER_MIN: &str = "PrincipalStressOuterMin";
 /// Thickness of a shell \[m\].
 pub const THICKNESS: &str = "Thickness";
 /// Volume of a particle \[m^3\].

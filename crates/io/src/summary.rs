@@ -4,11 +4,11 @@
 //! as `null` and read back as NaN. The file is written when a run starts (status `running`) and again at
 //! its end, whatever the end is.
 
-use crate::SolidSummary;
 use crate::check::{EffectEntry, Numbers, OpeningEntry, SurfaceReport};
 use crate::cycles::{CycleSummary, EndReason, EnergySummary};
 use crate::json;
 use crate::wall::WallSummary;
+use crate::{ShellSummary, SolidSummary};
 use serde::{Deserialize, Serialize};
 
 /// `summary.json`: the outcome of a run.
@@ -63,9 +63,12 @@ pub struct Summary {
     /// Stresses of the wall; absent where they were not asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallSummary>,
-    /// The wall where it deforms; absent where it is rigid.
+    /// The wall where it is a solid; absent where it is not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub solid: Option<SolidSummary>,
+    /// The same of a shell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shell: Option<ShellSummary>,
     /// The geometry audit.
     #[serde(default)]
     pub surface: Option<SurfaceReport>,

@@ -58,6 +58,7 @@ const RIGID_LAYERS: &[When] = &[When { key: "model", words: &["rigid"] }];
 const RIGID_SHELL: &[When] = &[When { key: "model", words: &["rigid-shell"] }];
 const LAYERS: &[When] = &[When { key: "model", words: &["rigid", "solid"] }];
 const SOLID_WALL: &[When] = &[When { key: "model", words: &["solid"] }];
+const SHELL_WALL: &[When] = &[When { key: "model", words: &["shell"] }];
 const SHELLS: &[When] = &[When { key: "model", words: &["rigid-shell", "shell"] }];
 const ISOTROPIC: &[When] =
     &[ELASTIC, When { key: "material", words: &["neo-hookean", "saint-venant-kirchhoff", "hypoelastic"] }];
@@ -121,8 +122,9 @@ pub(crate) const KEYS: &[Key] = &[
     only(RIGID_LAYERS, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Optional("four spacings"), "Thickness of the layers that stand for it."),
     only(RIGID_SHELL, "wall.thickness", Quantity(LENGTH, Range::POSITIVE), Optional("one spacing"), "Thickness written with its particles."),
     only(SOLID_WALL, "wall.spacing", Quantity(LENGTH, Range::POSITIVE), Optional("that of the particles, or as much less as four layers need"), "Distance between the particles of the wall, at most that of the blood."),
+    only(SHELL_WALL, "wall.spacing", Quantity(LENGTH, Range::POSITIVE), Optional("that of the particles"), "Distance between the particles of the wall, at most that of the blood."),
     only(LAYERS, "wall.open_ends", Choice(OpenEnds::WORDS), Optional("\"collar\" where it is rigid or meets blood, else \"closest-cap\""), "Where its particles end at the openings."),
-    only(SHELLS, "wall.open_ends", Choice(OpenEnds::OF_SHELLS), Optional("\"closest-cap\""), "Where its particles end at the openings."),
+    only(SHELLS, "wall.open_ends", Choice(OpenEnds::OF_SHELLS), Optional("\"collar\" where it meets blood, else \"closest-cap\""), "Where its particles end at the openings."),
     only(ELASTIC_WALL, "wall.density", Quantity(DENSITY, Range::POSITIVE), Default("1120 kg/m^3"), "Density at rest."),
     only(ISOTROPIC, "wall.young_modulus", Quantity(PRESSURE, Range::POSITIVE), Required, "Young's modulus."),
     only(ELASTIC_WALL, "wall.poisson_ratio", Number(Range::closed(0.0, 0.495)), Default("0.45"), "Poisson's ratio. The explicit step goes to zero as it goes to 0.5."),

@@ -27,13 +27,13 @@ pub(crate) struct Forces<R> {
     /// Force \[Pa\] and couple \[N/m\] by area that the particle gives itself.
     own: Vec<[DVec3; 2]>,
     /// Displacement and change of the director; read for the gradient.
-    kinematic: Records<R>,
+    pub(crate) kinematic: Records<R>,
     /// Reference position, displacement, and the last entry of the matrix in `matrix`.
     jump: Records<R>,
     matrix: Records<R>,
     /// Columns of the force and of the moment.
-    force: Records<R>,
-    moment: Records<R>,
+    pub(crate) force: Records<R>,
+    pub(crate) moment: Records<R>,
     pub(crate) isa: Isa,
 }
 

@@ -16,6 +16,7 @@ mod reference;
 mod section;
 mod settle;
 mod shell;
+mod spread;
 mod state;
 mod step;
 mod support;

@@ -1,7 +1,7 @@
 //! Quantities of one particle, for files and pictures.
 
 use crate::material::{Model, SHEAR_CORRECTION, across, neo_hookean_stress};
-use crate::section::{cauchy_green, first_piola};
+use crate::section::{Present, cauchy_green, first_piola};
 use crate::shell::Shell;
 use glam::{DMat3, DVec3};
 use vaso_kernels::Real;
@@ -73,6 +73,19 @@ impl<R: Real> Shell<R> {
     /// Unit normal of the present mid-surface at particle `i`; it differs from the director by transverse shear.
     pub fn normal(&self, i: usize) -> DVec3 {
         self.forces.area_vector(i).normalize_or_zero()
+    }
+
+    /// Present principal curvatures of the mid-surface \[1/m\] at particle `i`, the larger first: positive where directors spread,
+    /// `1/R` and zero on a tube seen from inside. They are those of the shape operator `g_a.g_b` to `g_a.n_,b`.
+    pub fn curvatures(&self, i: usize) -> [f64; 2] {
+        let base = &self.forces.reference.base[i];
+        let Present { g, n, .. } = Present::new(base, &self.forces.motion[i], self.state.director[i]);
+        let [a11, a22, a12] = [g[0].dot(g[0]), g[1].dot(g[1]), g[0].dot(g[1])];
+        let [b11, b22, b12] = [g[0].dot(n[0]), g[1].dot(n[1]), 0.5 * (g[0].dot(n[1]) + g[1].dot(n[0]))];
+        let determinant = a11 * a22 - a12 * a12;
+        let mean = 0.5 * (a22 * b11 - 2.0 * a12 * b12 + a11 * b22) / determinant;
+        let spread = (mean * mean - (b11 * b22 - b12 * b12) / determinant).max(0.0).sqrt();
+        [mean + spread, mean - spread]
     }
 
     /// Present over reference area at particle `i`.

@@ -3,6 +3,7 @@
 use crate::flow::Flow;
 use crate::plan::Plan;
 use vaso_boundary::Condition;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_metrics::{EnergyBalance, EnergySample};
 
@@ -30,7 +31,7 @@ impl EnergyObserver {
         }
     }
 
-    pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) {
+    pub(super) fn add<R: Real, W: MovingWall>(&mut self, flow: &Flow<R, W>) {
         let reference = flow.openings.reference_pressure(flow.time);
         let outflow = |r: &vaso_boundary::Reading| (r.pressure - reference) * r.flow + r.kinetic_power;
         let opening = &flow.fluid.state.opening;

@@ -17,6 +17,7 @@ use crate::error::DriverError;
 use crate::flow::Flow;
 use crate::ledger::Stage;
 use crate::plan::Plan;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::EndReason;
 use vaso_metrics::Verdict;
@@ -53,9 +54,9 @@ impl Observers {
     ///
     /// # Errors
     /// When the columns of the flow do not belong together.
-    pub fn after_step<R: Real>(
+    pub fn after_step<R: Real, W: MovingWall>(
         &mut self,
-        flow: &mut Flow<R>,
+        flow: &mut Flow<R, W>,
     ) -> Result<Option<(EndReason, String)>, DriverError> {
         let start = std::time::Instant::now();
         self.energy.add(flow);
@@ -90,7 +91,7 @@ impl Observers {
     ///
     /// # Errors
     /// As [`Self::after_step`].
-    pub fn finish<R: Real>(&mut self, flow: &Flow<R>) -> Result<(), DriverError> {
+    pub fn finish<R: Real, W: MovingWall>(&mut self, flow: &Flow<R, W>) -> Result<(), DriverError> {
         if let Some(wall) = &mut self.wall {
             let shear = wall.finish(flow.time)?;
             // The run ends here anyhow; what counts is that the change is noted.

@@ -2,6 +2,7 @@
 
 use crate::error::DriverError;
 use crate::flow::Flow;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_metrics::{Change, Criterion, OpeningCycle, OpeningCycles, OpeningSample, Verdict};
 
@@ -45,7 +46,7 @@ impl OpeningObserver {
         })
     }
 
-    pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) -> Result<(), DriverError> {
+    pub(super) fn add<R: Real, W: MovingWall>(&mut self, flow: &Flow<R, W>) -> Result<(), DriverError> {
         let sample = |r: &vaso_boundary::Reading| OpeningSample {
             flow: r.flow,
             pressure: r.pressure,

@@ -1,6 +1,7 @@
 //! Whether a flow without a period has settled.
 
 use crate::flow::Flow;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 
 /// Compares the mean flows of successive intervals.
@@ -24,7 +25,7 @@ impl Settling {
     }
 
     /// Takes the state after a step; tells when it has settled.
-    pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) -> Option<String> {
+    pub(super) fn add<R: Real, W: MovingWall>(&mut self, flow: &Flow<R, W>) -> Option<String> {
         let dt = flow.time - self.last_time;
         self.last_time = flow.time;
         self.time += dt;

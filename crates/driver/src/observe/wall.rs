@@ -6,6 +6,7 @@ use crate::flow::Flow;
 use crate::plan::Plan;
 use glam::DVec3;
 use vaso_boundary::BUFFER_LENGTH;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_geometry::SignedDistance;
 use vaso_metrics::{
@@ -90,7 +91,10 @@ impl WallObserver {
     }
 
     /// Takes the state after a step; gives the change of the time-averaged stress when a cycle ended that is not the first.
-    pub(super) fn add<R: Real>(&mut self, flow: &Flow<R>) -> Result<Option<f64>, DriverError> {
+    pub(super) fn add<R: Real, W: MovingWall>(
+        &mut self,
+        flow: &Flow<R, W>,
+    ) -> Result<Option<f64>, DriverError> {
         if flow.time < self.next_sample || flow.advective_steps < self.next_step {
             return Ok(None);
         }

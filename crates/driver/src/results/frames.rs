@@ -3,6 +3,7 @@
 use crate::flow::Flow;
 use glam::DVec3;
 use rayon::prelude::*;
+use vaso_coupling::MovingWall;
 use vaso_fluid::{FluidState, Real};
 use vaso_io::{Frame, SeriesWriter};
 use vaso_kernels::Wendland;
@@ -12,16 +13,17 @@ use vaso_scene::Field;
 ///
 /// # Errors
 /// As [`SeriesWriter::append`].
-pub fn append_frame<R: Real>(
+pub fn append_frame<R: Real, W: MovingWall>(
     series: &mut SeriesWriter,
-    flow: &Flow<R>,
+    flow: &Flow<R, W>,
     fields: &[Field],
 ) -> Result<(), vaso_io::IoError> {
-    let state: &FluidState = &flow.fluid.state;
+    let fluid = &flow.fluid;
+    let state: &FluidState = &fluid.state;
     let reference = flow.openings.reference_pressure(flow.time);
     let rho0 = flow.fluid.numbers().rest_density;
     let pressure: Vec<f64> =
-        (0..state.len()).into_par_iter().map(|i| reference + flow.fluid.pressure(i)).collect();
+        (0..state.len()).into_par_iter().map(|i| reference + fluid.pressure(i)).collect();
     let density: Vec<f64> = state.density_change.par_iter().map(|d| rho0 + d).collect();
     let mut frame =
         Frame { time: flow.time, position: &state.position, ids: Some(&state.id), ..Frame::default() };
@@ -38,7 +40,7 @@ pub fn append_frame<R: Real>(
 }
 
 /// Kernel mean (Shepard) of pressure \[Pa\] and velocity \[m/s\] at a point; NaN where no fluid is near.
-pub(super) fn interpolate<R: Real>(flow: &Flow<R>, at: DVec3) -> (f64, DVec3) {
+pub(super) fn interpolate<R: Real, W: MovingWall>(flow: &Flow<R, W>, at: DVec3) -> (f64, DVec3) {
     let state = &flow.fluid.state;
     let kernel = Wendland::new(flow.fluid.numbers().smoothing_length);
     let (mut weight, mut pressure, mut velocity) = (0.0, 0.0, DVec3::ZERO);

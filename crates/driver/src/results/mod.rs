@@ -1,6 +1,7 @@
 //! What a run writes: particle series, table of the openings, probes and the summary.
 
 use crate::case::Case;
+use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::flow::Flow;
 use crate::ledger::Stage;
@@ -8,11 +9,13 @@ use crate::observe::Observers;
 use crate::plan::Plan;
 use frames::interpolate;
 use glam::DVec3;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::{EndReason, OutputDir, SeriesWriter, Table};
 
 mod account;
 mod frames;
+mod shell;
 mod solid;
 mod summary;
 mod wall;
@@ -35,7 +38,7 @@ impl Means {
         Self { time: 0.0, flow: vec![0.0; n], pressure: vec![0.0; n] }
     }
 
-    fn add<R: Real>(&mut self, flow: &Flow<R>, dt: f64) {
+    fn add<R: Real, W: MovingWall>(&mut self, flow: &Flow<R, W>, dt: f64) {
         self.time += dt;
         for (k, reading) in flow.readings.iter().enumerate() {
             self.flow[k] += dt * reading.flow;
@@ -48,13 +51,13 @@ impl Means {
     }
 }
 
-/// Open result files of a run.
-pub struct Results {
+/// Open result files of a run, `F` that of a wall that deforms.
+pub struct Results<F> {
     folder: std::path::PathBuf,
     fluid: SeriesWriter,
     wall: Option<WallFile>,
     /// Series of a wall that deforms.
-    solid: Option<SeriesWriter>,
+    deforming: Option<F>,
     table: Table,
     probes: Option<Table>,
     next_frame: f64,
@@ -68,12 +71,17 @@ pub struct Results {
     pub observers: Observers,
 }
 
-impl Results {
+impl<F> Results<F> {
     /// Opens the files in `out`.
     ///
     /// # Errors
     /// When the folder cannot be written.
-    pub fn create(out: &OutputDir, case: &Case, plan: &Plan) -> Result<Self, DriverError> {
+    pub fn create<R: Real, W: Deforming<File = F>>(
+        out: &OutputDir,
+        case: &Case,
+        plan: &Plan,
+        flow: &Flow<R, W>,
+    ) -> Result<Self, DriverError> {
         let mut header = vec!["time_s".to_owned()];
         for o in &plan.openings {
             header.push(format!("{}.flow_m3_s", o.name));
@@ -95,7 +103,11 @@ impl Results {
         let wall = observers.wall.as_ref().map(|w| WallFile::create(out.file("wall.vtkhdf"), w, fields));
         Ok(Self {
             wall: wall.transpose()?,
-            solid: plan.wall.as_ref().map(|_| SeriesWriter::create(out.file("wall.vtkhdf"))),
+            deforming: flow
+                .wall
+                .as_ref()
+                .map(|wall| wall.wall.create(out.file("wall.vtkhdf"), case))
+                .transpose()?,
             folder: out.path().to_owned(),
             fluid: SeriesWriter::create(out.file("fluid.vtkhdf")),
             table,
@@ -119,9 +131,9 @@ impl Results {
     ///
     /// # Errors
     /// When a file cannot be written.
-    pub fn after_step<R: Real>(
+    pub fn after_step<R: Real, W: Deforming<File = F>>(
         &mut self,
-        flow: &mut Flow<R>,
+        flow: &mut Flow<R, W>,
         case: &Case,
         plan: &Plan,
     ) -> Result<Option<(EndReason, String)>, DriverError> {
@@ -152,7 +164,11 @@ impl Results {
         Ok(settled)
     }
 
-    fn write_row<R: Real>(&mut self, flow: &Flow<R>, case: &Case) -> Result<(), DriverError> {
+    fn write_row<R: Real, W: MovingWall>(
+        &mut self,
+        flow: &Flow<R, W>,
+        case: &Case,
+    ) -> Result<(), DriverError> {
         let mut row = vec![flow.time];
         for k in 0..self.interval.flow.len() {
             row.push(self.interval.mean(self.interval.flow[k]));
@@ -176,7 +192,11 @@ impl Results {
     ///
     /// # Errors
     /// As [`Self::after_step`].
-    pub fn finish<R: Real>(&mut self, flow: &Flow<R>, case: &Case) -> Result<(), DriverError> {
+    pub fn finish<R: Real, W: Deforming<File = F>>(
+        &mut self,
+        flow: &Flow<R, W>,
+        case: &Case,
+    ) -> Result<(), DriverError> {
         self.observers.finish(flow)?;
         self.write_frame(flow, case)
     }
@@ -185,20 +205,24 @@ impl Results {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn write_frame<R: Real>(&mut self, flow: &Flow<R>, case: &Case) -> Result<(), DriverError> {
+    pub fn write_frame<R: Real, W: Deforming<File = F>>(
+        &mut self,
+        flow: &Flow<R, W>,
+        case: &Case,
+    ) -> Result<(), DriverError> {
         if let (Some(file), Some(wall)) = (&mut self.wall, &self.observers.wall) {
             file.append(flow.time, wall)?;
         }
         if self.fluid.last_time() == Some(flow.time) {
             return Ok(());
         }
-        if let (Some(series), Some(wall)) = (&mut self.solid, &flow.wall) {
-            solid::append(series, flow.time, wall, &case.scene.output.fields)?;
+        if let (Some(file), Some(wall)) = (&mut self.deforming, &flow.wall) {
+            W::append(wall, file, flow.time, &case.scene.output.fields)?;
         }
         Ok(append_frame(&mut self.fluid, flow, &case.scene.output.fields)?)
     }
 }
 
-fn outflows<R: Real>(flow: &Flow<R>) -> Vec<f64> {
+fn outflows<R: Real, W: MovingWall>(flow: &Flow<R, W>) -> Vec<f64> {
     flow.openings.ports().iter().map(|p| p.counters.outflow_volume).collect()
 }

@@ -1,18 +1,56 @@
 //! `wall.vtkhdf` of a wall that deforms: its particles, with what the case asks for.
 
+use crate::case::Case;
+use crate::deforming::Deforming;
+use crate::error::DriverError;
+use crate::plan::Plan;
+use crate::world::WallParticles;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::path::PathBuf;
 use vaso_coupling::Coupling;
 use vaso_fluid::Real;
-use vaso_io::{Frame, IoError, SeriesWriter, SolidSummary, schema};
+use vaso_io::{Frame, IoError, SeriesWriter, SolidSummary, Summary, schema};
 use vaso_scene::Field;
 use vaso_solid::Solid;
+
+impl<R: Real> Deforming for Solid<R> {
+    type File = SeriesWriter;
+
+    const EFFECT: &'static str = "wall.solid";
+
+    fn build(case: &Case, plan: &Plan, particles: &WallParticles) -> Result<Option<Self>, DriverError> {
+        let (Some(planned), WallParticles::Layers(body)) = (&plan.wall, particles) else { return Ok(None) };
+        planned.build(case, plan, body).map(Some)
+    }
+
+    fn create(&self, path: PathBuf, _: &Case) -> Result<SeriesWriter, DriverError> {
+        Ok(SeriesWriter::create(path))
+    }
+
+    fn append(
+        wall: &Coupling<Self>,
+        file: &mut SeriesWriter,
+        time: f64,
+        fields: &[Field],
+    ) -> Result<(), DriverError> {
+        Ok(append(file, time, wall, fields)?)
+    }
+
+    fn summarize(wall: &mut Coupling<Self>, plan: &Plan, told: &mut Summary) {
+        told.solid = Some(summary(wall, plan.wall.as_ref().map_or(0.0, |w| w.layers())));
+    }
+
+    fn bytes(&mut self) -> usize {
+        Self::bytes(self)
+    }
+}
 
 /// Appends the state of the wall to a series.
 ///
 /// # Errors
 /// As [`SeriesWriter::append`].
-pub(super) fn append<R: Real>(
+fn append<R: Real>(
     series: &mut SeriesWriter,
     time: f64,
     wall: &Coupling<Solid<R>>,
@@ -55,7 +93,7 @@ pub(super) fn append<R: Real>(
 }
 
 /// What the summary says of the wall.
-pub(super) fn summary<R: Real>(wall: &mut Coupling<Solid<R>>, layers: f64) -> SolidSummary {
+fn summary<R: Real>(wall: &mut Coupling<Solid<R>>, layers: f64) -> SolidSummary {
     let energies = wall.wall.energies();
     let solid = &wall.wall;
     let largest = solid.state.displacement.iter().map(|u| u.length_squared()).fold(0.0, f64::max);

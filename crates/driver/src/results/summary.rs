@@ -1,24 +1,26 @@
 //! What `summary.json` says of a run.
 
-use super::{Results, account, outflows, solid};
+use super::{Results, account, outflows};
 use crate::case::Case;
+use crate::deforming::Deforming;
 use crate::flow::Flow;
 use crate::ledger::Stage;
 use crate::plan::Plan;
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::{
-    Numbers, OpeningEntry, OpeningSummary, ParticleCounts, SolidSummary, Stability, Status, StepCounts,
-    Summary, SurfaceReport,
+    Numbers, OpeningEntry, OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary,
+    SurfaceReport,
 };
 
-impl Results {
+impl<F> Results<F> {
     /// The summary of a run that ends now.
-    pub fn summary<R: Real>(
+    pub fn summary<R: Real, W: Deforming<File = F>>(
         &self,
-        flow: &mut Flow<R>,
+        flow: &mut Flow<R, W>,
         case: &Case,
         plan: &Plan,
-        n_wall: usize,
+        counts: ParticleCounts,
         wall_clock: f64,
     ) -> Summary {
         let cycle = self.observers.openings.as_ref().and_then(|o| o.completed.last());
@@ -32,7 +34,7 @@ impl Results {
             }
         });
         let loop_seconds = flow.ledger.total() - flow.ledger.seconds(Stage::Output);
-        Summary {
+        let mut summary = Summary {
             vaso_version: env!("CARGO_PKG_VERSION").into(),
             status: Status::Completed,
             case: case.scene.title.clone(),
@@ -40,7 +42,7 @@ impl Results {
             time_s: flow.time,
             wall_clock_s: wall_clock,
             threads: rayon::current_num_threads() as u64,
-            particles: ParticleCounts { fluid: flow.fluid.state.len() as u64, wall: n_wall as u64, shell: 0 },
+            particles: ParticleCounts { fluid: flow.fluid.state.len() as u64, ..counts },
             steps: StepCounts {
                 advection: flow.advective_steps,
                 acoustic: flow.acoustic_steps,
@@ -64,16 +66,21 @@ impl Results {
             cycles: account::cycles(&self.observers, &case.scene.output.fractional_flow_reserve),
             energy: Some(account::energy(&self.observers.energy, flow.openings.ports())),
             wall: self.observers.wall.as_ref().map(account::wall),
-            solid: solid_summary(flow, plan),
+            solid: None,
+            shell: None,
             surface: Some(surface_report(&case.vessel)),
             numbers: Some(numbers(plan)),
             warnings: plan.warnings.clone(),
+        };
+        if let Some(wall) = &mut flow.wall {
+            W::summarize(wall, plan, &mut summary);
         }
+        summary
     }
 
     /// Inflow minus outflow over the inflow, by the volumes that crossed the caps in the second half, of a pulsatile flow in the
     /// last whole cycle.
-    fn mass_balance<R: Real>(&self, flow: &Flow<R>) -> f64 {
+    fn mass_balance<R: Real, W: MovingWall>(&self, flow: &Flow<R, W>) -> f64 {
         let cycle = self.observers.openings.as_ref().and_then(|o| o.completed.last());
         if let Some(error) = cycle.and_then(vaso_metrics::OpeningCycle::mass_balance_error) {
             return error;
@@ -83,11 +90,6 @@ impl Results {
         let inflow: f64 = change.iter().map(|c| (-c).max(0.0)).sum();
         if inflow > 0.0 { change.iter().sum::<f64>().abs() / inflow } else { f64::NAN }
     }
-}
-
-fn solid_summary<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Option<SolidSummary> {
-    let wall = flow.wall.as_mut()?;
-    Some(solid::summary(wall, plan.wall.as_ref().map_or(0.0, |w| w.layers())))
 }
 
 /// Geometry of an opening as JSON has it.
@@ -125,7 +127,7 @@ pub fn numbers(plan: &Plan) -> Numbers {
 }
 
 /// Effects of the plan with the time of the stages they are made of.
-fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::EffectEntry> {
+fn costed_effects<R: Real, W: Deforming>(flow: &mut Flow<R, W>, plan: &Plan) -> Vec<vaso_io::EffectEntry> {
     let bytes = flow.fluid.bytes();
     let wall_bytes = flow.wall.as_mut().map(|wall| [wall.wall.bytes(), wall.bytes()]);
     let spent = |stages: &[Stage]| stages.iter().map(|&s| flow.ledger.seconds(s)).sum::<f64>();
@@ -139,8 +141,8 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
                 // One sweep finds both the density sum and the correction matrices.
                 "blood.density_blend" => &[Stage::Summation],
                 "blood.transport_velocity" => &[Stage::Transport],
-                "wall.rigid" => &[Stage::WallPressure],
-                "wall.solid" => &[Stage::Wall],
+                "wall.rigid" | "wall.rigid_shell" => &[Stage::WallPressure],
+                "wall.solid" | "wall.shell" => &[Stage::Wall],
                 "wall.coupling" => &[Stage::WallPressure, Stage::Coupling],
                 "metrics.wall_shear" => &[Stage::WallShear],
                 "opening.velocity" | "opening.pressure" | "opening.resistance" | "opening.windkessel" => {
@@ -165,9 +167,9 @@ fn costed_effects<R: Real>(flow: &mut Flow<R>, plan: &Plan) -> Vec<vaso_io::Effe
             if effect.name == "blood.pressure" {
                 entry.bytes = Some(bytes as u64);
             }
-            if let (Some([solid, between]), true) = (wall_bytes, effect.on) {
+            if let Some([own, between]) = wall_bytes {
                 match effect.name.as_str() {
-                    "wall.solid" => entry.bytes = Some(solid as u64),
+                    name if name == W::EFFECT => entry.bytes = Some(own as u64),
                     "wall.coupling" => entry.bytes = Some(between as u64),
                     _ => {}
                 }

@@ -1,0 +1,120 @@
+//! A shell as a wall of the fluid: its ghost columns follow positions and directors, and their forces go to its particles.
+
+use crate::columns::{Foot, GhostColumns};
+use crate::wall::{CouplingError, MovingWall};
+use glam::DVec3;
+use rayon::prelude::*;
+use vaso_particles::{Columns, Visitor, WallLoad, WallView};
+use vaso_shell::{Real, Shell, ShellError};
+
+/// Shell with the ghost columns that the fluid sees of it.
+///
+/// A column stands on the face of the lumen, half a thickness from the mid-surface, and goes along the director of its particle. The
+/// forces on its ghosts add up to that on the particle, which so gets all the momentum that the fluid loses; what they do beside that as
+/// the wall thins is a tension of the mid-surface, which leaves no resultant. Their moment about the particle is left out: it comes from
+/// drag, as pressure acts along the director.
+pub struct ShellWall<R> {
+    /// The shell.
+    pub shell: Shell<R>,
+    columns: GhostColumns,
+    pressure_force: Vec<DVec3>,
+    viscous_force: Vec<DVec3>,
+    /// Work of the forces of each column on an area strain of one \[J\].
+    spread: Vec<f64>,
+    /// Rate of the area strain \[1/s\].
+    strain_rate: Vec<f64>,
+}
+
+impl<R: Real> ShellWall<R> {
+    /// `shell` at rest where it stands, for a fluid of a `spacing` \[m\] whose kernel reaches as far as `support` \[m\].
+    ///
+    /// # Errors
+    /// When the shell cannot stand there.
+    pub fn new(mut shell: Shell<R>, spacing: f64, support: f64) -> Result<Self, ShellError> {
+        let n = shell.state.len();
+        shell.refresh()?;
+        let feet = (0..n).map(|i| foot(&shell, i, 0.0)).collect();
+        Ok(Self {
+            columns: GhostColumns::new(feet, spacing, support),
+            pressure_force: vec![DVec3::ZERO; n],
+            viscous_force: vec![DVec3::ZERO; n],
+            spread: vec![0.0; n],
+            strain_rate: vec![0.0; n],
+            shell,
+        })
+    }
+
+    /// The ghost columns.
+    pub fn columns(&self) -> &GhostColumns {
+        &self.columns
+    }
+
+    /// Bytes held, the shell included.
+    pub fn bytes(&mut self) -> usize {
+        let vectors = self.pressure_force.capacity() + self.viscous_force.capacity();
+        let numbers = self.spread.capacity() + self.strain_rate.capacity();
+        self.shell.bytes() + self.columns.bytes() + size_of::<DVec3>() * vectors + 8 * numbers
+    }
+}
+
+/// Thinning by area strain of a shell without stress across it.
+fn thinning<R: Real>(shell: &Shell<R>) -> f64 {
+    let poisson = shell.material().poisson();
+    poisson / (1.0 - poisson)
+}
+
+/// The lumen face in front of particle `i`, whose area strain changes at a `rate` \[1/s\]. Areas and curvatures are those of a parallel
+/// surface (Steiner's formula); the face follows the thinning of the wall.
+fn foot<R: Real>(shell: &Shell<R>, i: usize, rate: f64) -> Foot {
+    let state = &shell.state;
+    let half = 0.5 * state.thickness[i];
+    let (strain, thinning) = (shell.area_strain(i), half * thinning(shell));
+    let distance = half - thinning * strain;
+    let curvature = shell.curvatures(i);
+    let stretch = curvature.map(|k| 1.0 - distance * k);
+    let (normal, turning) = (state.director[i], state.director_velocity[i]);
+    Foot {
+        position: state.position(i) - distance * normal,
+        velocity: state.velocity[i] - distance * turning + thinning * rate * normal,
+        normal,
+        turning,
+        area: state.area[i] * (1.0 + strain) * stretch[0] * stretch[1],
+        area_strain: strain,
+        area_strain_rate: rate,
+        curvature: [curvature[0] / stretch[0], curvature[1] / stretch[1]],
+    }
+}
+
+impl<R: Real> MovingWall for ShellWall<R> {
+    fn view(&self) -> WallView<'_> {
+        self.columns.view()
+    }
+
+    fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {
+        self.columns.gather(load, &mut self.pressure_force, &mut self.viscous_force, &mut self.spread);
+        let (state, thinning) = (&self.shell.state, thinning(&self.shell));
+        let forces = self.pressure_force.par_iter().zip(&self.viscous_force);
+        self.spread.par_iter_mut().zip(forces).enumerate().with_min_len(1024).for_each(
+            |(i, (spread, (p, v)))| {
+                *spread += 0.5 * state.thickness[i] * thinning * state.director[i].dot(*p + *v);
+            },
+        );
+        let load = WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force };
+        Ok(self.shell.set_load_with_spread(&load, &self.spread)?)
+    }
+
+    fn advance(&mut self, dt: f64) -> Result<usize, CouplingError> {
+        let substeps = self.shell.advance(dt)?;
+        self.shell.area_strain_rates(dt, &mut self.strain_rate);
+        let (shell, rate) = (&self.shell, &self.strain_rate);
+        self.columns.follow(|i| foot(shell, i, rate[i]));
+        Ok(substeps)
+    }
+}
+
+/// What the shell has to remember; its columns follow from it.
+impl<R: Real> Columns for ShellWall<R> {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        self.shell.visit(visitor);
+    }
+}

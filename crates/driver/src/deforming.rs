@@ -1,0 +1,49 @@
+//! What the driver asks of a wall that deforms, whatever it is made of.
+
+use crate::case::Case;
+use crate::error::DriverError;
+use crate::plan::Plan;
+use crate::world::WallParticles;
+use std::path::PathBuf;
+use vaso_coupling::{Coupling, MovingWall};
+use vaso_io::Summary;
+use vaso_particles::Columns;
+use vaso_scene::Field;
+
+/// A wall that deforms, as it is built, kept and told of. A flow is made for one kind of it and knows no other.
+pub trait Deforming: MovingWall + Columns + Sized {
+    /// The open `wall.vtkhdf`.
+    type File;
+
+    /// Name of its effect.
+    const EFFECT: &'static str;
+
+    /// The wall of a plan, of these particles; `None` for one at rest.
+    ///
+    /// # Errors
+    /// When the particles do not make such a wall.
+    fn build(case: &Case, plan: &Plan, particles: &WallParticles) -> Result<Option<Self>, DriverError>;
+
+    /// Starts its series at `path`.
+    ///
+    /// # Errors
+    /// When it cannot be declared.
+    fn create(&self, path: PathBuf, case: &Case) -> Result<Self::File, DriverError>;
+
+    /// Appends where it stands at `time` \[s\].
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    fn append(
+        wall: &Coupling<Self>,
+        file: &mut Self::File,
+        time: f64,
+        fields: &[Field],
+    ) -> Result<(), DriverError>;
+
+    /// Says in the summary where it stands, and what went through it.
+    fn summarize(wall: &mut Coupling<Self>, plan: &Plan, summary: &mut Summary);
+
+    /// Bytes held.
+    fn bytes(&mut self) -> usize;
+}
