@@ -31,16 +31,14 @@ validate-long:
 validate-solids:
     cargo test --release -p vaso-solid --tests -- --ignored --nocapture
 
-<<<<<<< HEAD
 # Shells alone: roofs, cylinders, hemispheres, energy over long times, relaxed tubes; five minutes on two cores.
 validate-shells:
     cargo test --release -p vaso-shell --tests -- --include-ignored --nocapture
     cargo test -p vaso-tests --test shells -- --include-ignored --nocapture
-=======
+
 # Blood in elastic tubes, with the figures printed; a quarter of an hour on two cores.
 validate-walls:
     cargo test --release -p vaso-tests --test elastic_tube --test moving_wall --test shell_walls -- --include-ignored --nocapture
->>>>>>> fsi
 
 # Micro-benchmarks.
 bench:

@@ -277,3 +277,19 @@ fn nothing_knows_the_machine_it_was_written_on() {
     }
     assert_none(&faults);
 }
+
+/// A merge that was not finished leaves marks that no compiler sees in documents and recipes.
+#[test]
+fn no_merge_is_left_half_done() {
+    let marks = ["<", ">"].map(|mark| mark.repeat(7) + " ");
+    let mut faults = Vec::new();
+    for path in files() {
+        let Ok(text) = fs::read_to_string(&path) else { continue };
+        for (number, line) in text.lines().enumerate() {
+            if marks.iter().any(|mark| line.starts_with(mark.as_str())) {
+                faults.push(format!("{}:{}: {}", from_root(&path), number + 1, line));
+            }
+        }
+    }
+    assert_none(&faults);
+}
