@@ -19,17 +19,6 @@ use vaso_particles::visit;
 /// taken away at the edge.
 const FRINGE: f64 = 0.5;
 
-/// What a particle that has passed the end of a buffer leaves to be put in behind its cap.
-#[derive(Clone, Copy)]
-struct Wish {
-    /// The particle, which the new one is a copy of.
-    like: usize,
-    /// Its own place, set back by the length of the buffer \[m\].
-    place: DVec3,
-    /// Its velocity out of the vessel \[m/s\].
-    outward: f64,
-}
-
 impl Openings {
     /// Labels the particles in the buffers at the start of a run.
     pub fn start(&mut self, state: &mut FluidState) {
@@ -44,19 +33,27 @@ impl Openings {
         let length = self.buffer_length();
         let fringe = FRINGE * self.spacing;
         let reference = self.reference_pressure(t);
-        let mut wishes: Vec<Vec<Wish>> = vec![Vec::new(); self.ports.len()];
+        let mut room: Vec<Option<Room>> = self.ports.iter().map(|_| None).collect();
         for i in 0..state.len() {
             let Ok(k) = usize::try_from(state.opening[i]) else { continue };
+            let imposed = self.pressure_value(k, t);
             let port = &mut self.ports[k];
             if port.opening.depth(state.position[i]) <= length + fringe {
                 continue;
             }
-            let place = state.position[i] + length * port.opening.normal;
+            let normal = port.opening.normal;
+            let (mut place, mut velocity) = (state.position[i] + length * normal, state.velocity[i]);
             if port.condition.sets_pressure() {
-                // It moves on; what comes in for it is put in below.
-                state.opening[i] = FluidState::NO_OPENING;
-                wishes[k].push(Wish { like: i, place, outward: state.velocity[i].dot(port.opening.normal) });
-                continue;
+                let room = room[k].get_or_insert_with(|| {
+                    Room::new(&self.places[k], &port.opening, k as i32, self.spacing, state)
+                });
+                let Some((free, outward)) = room.take(place, velocity.dot(normal)) else {
+                    // A crowd is one particle less.
+                    state.opening[i] = FluidState::NO_OPENING;
+                    continue;
+                };
+                place = free;
+                velocity = outward * normal;
             }
             visit::append_copy(state, i);
             let copy = state.len() - 1;
@@ -65,14 +62,12 @@ impl Openings {
             state.id[i] = self.next_id;
             self.next_id += 1;
             state.position[i] = place;
+            state.velocity[i] = velocity;
+            if let Some(pressure) = imposed {
+                state.density_change[i] = (pressure - reference) / (sound_speed * sound_speed);
+            }
             port.counters.injected += 1;
             port.counters.outflow_volume -= state.mass[i] / rest_density;
-        }
-        for (k, wishes) in wishes.iter().enumerate() {
-            if let Some(pressure) = self.pressure_value(k, t) {
-                let density_change = (pressure - reference) / (sound_speed * sound_speed);
-                self.let_in(k, wishes, density_change, state);
-            }
         }
         let mut leaving: Vec<(usize, usize)> = {
             let this = &*self;
@@ -93,41 +88,6 @@ impl Openings {
             visit::swap_remove(state, i);
         }
         self.label(state);
-    }
-
-    /// Puts particles in through pressure opening `k` for those that have passed the end of its buffer, and for those of earlier steps
-    /// that had no room, as far as there is room now.
-    fn let_in(&mut self, k: usize, wishes: &[Wish], density_change: f64, state: &mut FluidState) {
-        let port = &mut self.ports[k];
-        let owed = port.owed as usize + wishes.len();
-        if owed == 0 {
-            return;
-        }
-        let Some(like) =
-            wishes.first().map(|w| w.like).or_else(|| state.opening.iter().position(|&o| o == k as i32))
-        else {
-            return;
-        };
-        let mut room = Room::new(&self.places[k], &port.opening, k as i32, self.spacing, state);
-        let wanted = wishes.iter().map(|w| (w.like, Some((w.place, w.outward))));
-        let older = (wishes.len()..owed).map(|_| (like, None));
-        port.owed = 0;
-        for (like, own) in wanted.chain(older) {
-            let Some((place, outward)) = room.take(own) else {
-                port.owed += 1;
-                continue;
-            };
-            visit::append_copy(state, like);
-            let new = state.len() - 1;
-            state.opening[new] = k as i32;
-            state.id[new] = self.next_id;
-            self.next_id += 1;
-            state.position[new] = place;
-            state.velocity[new] = outward * port.opening.normal;
-            state.density_change[new] = density_change;
-            port.counters.injected += 1;
-            port.counters.outflow_volume -= state.mass[new] / self.numbers.rest_density;
-        }
     }
 
     /// Opening through which a particle at `x` has left, if any.

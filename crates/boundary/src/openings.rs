@@ -72,7 +72,6 @@ impl Openings {
                     backflow_damping,
                     outlet,
                     inlet,
-                    owed: 0,
                     passed: Passed::default(),
                 }
             })
@@ -128,11 +127,7 @@ impl Openings {
 
     /// What the openings carry from step to step, one by one; with [`Self::next_id`] all that a checkpoint needs.
     pub fn states(&self) -> Vec<PortState> {
-        let state = |p: &Port| PortState {
-            counters: p.counters,
-            owed: p.owed,
-            outlet: p.outlet.as_ref().map(|o| o.state),
-        };
+        let state = |p: &Port| PortState { counters: p.counters, outlet: p.outlet.as_ref().map(|o| o.state) };
         self.ports.iter().map(state).collect()
     }
 
@@ -145,7 +140,6 @@ impl Openings {
         self.next_id = next_id;
         for (port, state) in self.ports.iter_mut().zip(states) {
             port.counters = state.counters;
-            port.owed = state.owed;
             if let (Some(outlet), Some(state)) = (&mut port.outlet, state.outlet) {
                 outlet.state = state;
             }

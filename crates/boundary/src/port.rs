@@ -93,8 +93,6 @@ pub struct Port {
     pub counters: Counters,
     /// Strength of the damping of backflow, where there is a model.
     pub(crate) backflow_damping: f64,
-    /// Particles that have passed the end of the buffer inwards, and for which none has come in yet for want of room.
-    pub(crate) owed: u32,
     /// What passed in the acoustic steps of this advective step.
     pub(crate) passed: Passed,
     /// The model behind a resistance or Windkessel.
@@ -129,8 +127,6 @@ pub(crate) struct Passed {
 pub struct PortState {
     /// What went through.
     pub counters: Counters,
-    /// Particles that are still to be let in.
-    pub owed: u32,
     /// Where the outlet model stands, if there is one.
     pub outlet: Option<CoupledState>,
 }

@@ -65,21 +65,21 @@ impl<'a> Room<'a> {
         Self { places, gap, near, spacing }
     }
 
-    /// Takes a place: the `own` \[m\] with its velocity along the normal \[m/s\] if that is free, or else the one farthest from all
-    /// others, with the mean velocity around it. Nothing where no place is left.
-    pub(crate) fn take(&mut self, own: Option<(DVec3, f64)>) -> Option<(DVec3, f64)> {
+    /// Takes a place for a particle that would come to `own` \[m\]: that if it is free, or else the one farthest from all others. Gives the
+    /// place and the mean velocity along the normal around it \[m/s\], which is `velocity` where it is the own; nothing where no
+    /// place is left.
+    pub(crate) fn take(&mut self, own: DVec3, velocity: f64) -> Option<(DVec3, f64)> {
         let squared = |distance: f64| (distance * self.spacing).powi(2);
-        let taken = match own {
-            Some(own) if nearest(&self.near, own.0) >= squared(FREE) => own,
-            _ => {
-                // The first of equals, so that the choice does not depend on anything but the set.
-                let best = (1..self.gap.len())
-                    .fold(0, |best, k| if self.gap[k] > self.gap[best] { k } else { best });
-                if self.gap.get(best).is_none_or(|&gap| gap < squared(LEAST)) {
-                    return None;
-                }
-                (self.places[best], self.mean(self.places[best], own.map_or(0.0, |own| own.1)))
+        let taken = if nearest(&self.near, own) >= squared(FREE) {
+            (own, velocity)
+        } else {
+            // The first of equals, so that the choice does not depend on anything but the set.
+            let best =
+                (1..self.gap.len()).fold(0, |best, k| if self.gap[k] > self.gap[best] { k } else { best });
+            if self.gap.get(best).is_none_or(|&gap| gap < squared(LEAST)) {
+                return None;
             }
+            (self.places[best], self.mean(self.places[best], velocity))
         };
         self.near.push(taken);
         for (gap, place) in self.gap.iter_mut().zip(self.places) {
@@ -149,8 +149,8 @@ mod tests {
         let (cap, places) = (cap(), places(&cap(), 1.0));
         let own = DVec3::new(0.5, 0.5, -0.5);
         let mut room = Room::new(&places, &cap, 0, 1.0, &layer(&[[2, 2]]));
-        assert_eq!(room.take(Some((own, -0.1))), Some((own, -0.1)));
-        let (other, _) = room.take(Some((own, -0.1))).expect("a square lattice has room at its cells");
+        assert_eq!(room.take(own, -0.1), Some((own, -0.1)));
+        let (other, _) = room.take(own, -0.1).expect("a square lattice has room at its cells");
         assert!(
             (other.distance(own) - 0.5_f64.sqrt()).abs() > 1e-6 && other != own,
             "it is taken once: {other}"
@@ -161,7 +161,7 @@ mod tests {
     fn another_place_is_taken_where_the_own_is_not() {
         let (cap, places) = (cap(), places(&cap(), 1.0));
         let mut room = Room::new(&places, &cap, 0, 1.0, &layer(&[[0, 3]]));
-        let (place, outward) = room.take(Some((DVec3::new(0.5, 0.5, -0.5), -0.1))).expect("one is free");
+        let (place, outward) = room.take(DVec3::new(0.5, 0.5, -0.5), -0.1).expect("one is free");
         assert!(place.distance(DVec3::new(-1.5, 1.5, -0.5)) < 1e-12, "{place}");
         assert!((outward + 0.2).abs() < 1e-12, "it moves as its neighbours do: {outward}");
     }
@@ -176,6 +176,6 @@ mod tests {
             *crowd.position.last_mut().expect("one was added") = x;
         }
         let mut room = Room::new(&places, &cap, 0, 1.0, &crowd);
-        assert_eq!(room.take(Some((DVec3::new(0.5, 0.5, -0.5), -0.1))), None);
+        assert_eq!(room.take(DVec3::new(0.5, 0.5, -0.5), -0.1), None);
     }
 }

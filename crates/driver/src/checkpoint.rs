@@ -38,8 +38,6 @@ pub fn write<R: Real, W: MovingWall + Columns>(folder: &Path, flow: &mut Flow<R,
     // Openings without a model stand as zeros.
     let outlets = flow.openings.states().into_iter().flat_map(|s| s.outlet.unwrap_or_default().to_array());
     archive.put_floats("openings.outlets", &outlets.collect::<Vec<_>>());
-    let owed = flow.openings.states().into_iter().map(|s| u64::from(s.owed));
-    archive.put_integers("openings.owed", &owed.collect::<Vec<_>>());
     archive.put_integers("openings.next_id", &[flow.openings.next_id()]);
     archive.write(&folder.join("checkpoint.h5"))
 }

@@ -133,6 +133,7 @@ impl Plan {
         numbers.smoothing_length = scene.numerics.smoothing_length * spacing;
         numbers.density_blend =
             scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
+        numbers.hold_mass = scene.numerics.hold_mass;
 
         let mut warnings = case.vessel.audit.notices.clone();
         let settings = crate::bodies::settings(scene);

@@ -30,13 +30,13 @@ impl Sums {
 }
 
 impl<R: Real> Fluid<R> {
-    /// `rho += omega (rho_sum - rho)` away from buffers, where `rho_sum` has the mean of the mass in the vessel if its walls are at rest.
+    /// `rho += omega (rho_sum - rho)` away from buffers, where `rho_sum` has the mean of the mass in the vessel if that is held.
     ///
     /// The kernel sum of an uneven set is larger than that of an even one of the same number, and how even a set is changes with the
     /// beat: taken at its word, the vessel would swallow and give back blood.
     pub(crate) fn blend(&mut self, zones: &[CapZone]) {
         let omega = self.numbers.density_blend;
-        let level = if self.moving.is_none() { self.level(zones) } else { 0.0 };
+        let level = if self.numbers.hold_mass && self.moving.is_none() { self.level(zones) } else { 0.0 };
         let (zone_of, surplus) = (&self.zone_of, &self.surplus);
         self.state.density_change.par_iter_mut().enumerate().with_min_len(4096).for_each(|(i, change)| {
             if !in_buffer(zones, zone_of[i]) {

@@ -23,6 +23,8 @@ pub struct Numbers {
     ///
     /// The full reset (1) is the main source of noise; 0 lets the density drift.
     pub density_blend: f64,
+    /// Where walls are at rest, the mean density follows the mass in the vessel instead of the kernel sum.
+    pub hold_mass: bool,
     /// Limiter of the velocity-jump dissipation; at 100 it is in effect the full acoustic jump.
     pub dissipation_limiter: f64,
     /// Strength of the transport-velocity shift a step.
@@ -51,6 +53,7 @@ impl Numbers {
             spacing,
             smoothing_length: 1.3 * spacing,
             density_blend: 0.1,
+            hold_mass: false,
             dissipation_limiter: 100.0,
             shift_strength: 0.2,
             shift_limit: 0.05,
