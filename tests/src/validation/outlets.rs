@@ -46,7 +46,7 @@ pub const SVFSI: Case = Case {
     remark: "With the pressure level in the equation of state 154 m/s would be needed for 1 %. Sound takes L/c from end to end, which \
              makes the outflow 1/cos(w L/c) of the inflow, 1.001 here. The pipe holds six strokes, so that a thousandth of its \
              volume, filled and emptied within a tenth of the cycle, is 3 % of the peak flow: the flow shows what the density \
-             does, the pressure what comes of it. Both were off by 7 to 11 % while the kernel sum set the mean density \
+             does, the pressure what comes of it. At D/10 and 20 m/s they were off by 7.5 and 10.6 % while the kernel sum set the mean density \
              (decision 10, item 18).",
     quick: Some(|| svfsi(10.0, 1.0)),
     full: || svfsi(14.0, 2.0),
@@ -264,13 +264,13 @@ fn svfsi(across: f64, cycles: f64) -> Option<Outcome> {
         "outlet pressure, largest difference of means over 20 ms from the finite elements, of the peak",
         smooth(&pressure, &column(2, 0.1)) / peak,
         Unit::Part,
-        if across < 12.0 { Tolerance::Held(0.03) } else { Tolerance::Missed { asked: 0.01, held: 0.02 } },
+        Tolerance::Missed { asked: 0.01, held: 0.1 },
     );
     outcome.figure(
         "outlet flow, the same",
         smooth(&flow_out, &column(3, 1e-6)) / (2.0 * 62.831_853_07e-6),
         Unit::Part,
-        if across < 12.0 { Tolerance::Held(0.08) } else { Tolerance::Missed { asked: 0.01, held: 0.04 } },
+        Tolerance::Missed { asked: 0.01, held: 0.15 },
     );
     lost(&mut outcome, &flown);
     Some(outcome)
