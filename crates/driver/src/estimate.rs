@@ -7,7 +7,7 @@ use crate::structure::PlannedWall;
 use std::f64::consts::PI;
 use vaso_boundary::Condition;
 use vaso_fluid::Numbers;
-use vaso_geometry::Vessel;
+use vaso_geometry::{Opening, Vessel};
 use vaso_io::{ParticleCounts, Predicted};
 use vaso_scene::Precision;
 
@@ -89,8 +89,7 @@ impl Flow {
         }
         let imposed = if highest > lowest { highest - lowest } else { 0.0 };
         let smallest_radius = openings.iter().map(|o| o.opening.radius).fold(f64::INFINITY, f64::min);
-        let (low, high) = vessel.surface.bounds();
-        let length = (high - low).length();
+        let length = length(vessel);
         let inlet_radius = inlet.map_or(smallest_radius, |i| i.0);
         if outlet_area > 0.0 && PARABOLIC * inflow / outlet_area > top_speed {
             top_speed = PARABOLIC * inflow / outlet_area;
@@ -133,6 +132,15 @@ impl Flow {
             smallest_radius,
         }
     }
+}
+
+/// Length of a vessel \[m\]: from an opening to the point of its surface farthest away. Unlike a box along the axes it is the same
+/// however the vessel is turned.
+fn length(vessel: &Vessel) -> f64 {
+    let from = |opening: &Opening| {
+        vessel.surface.vertices.iter().map(|v| v.distance_squared(opening.center)).fold(0.0, f64::max)
+    };
+    vessel.openings.iter().map(from).fold(0.0, f64::max).sqrt()
 }
 
 /// Peak over mean of a developed profile.

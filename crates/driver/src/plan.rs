@@ -134,6 +134,7 @@ impl Plan {
         numbers.density_blend =
             scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
         numbers.hold_mass = scene.numerics.hold_mass;
+        numbers.tensile_control = scene.numerics.tensile_control;
 
         let mut warnings = case.vessel.audit.notices.clone();
         let settings = crate::bodies::settings(scene);

@@ -5,8 +5,8 @@ use crate::error::DriverError;
 use crate::plan::PlannedOpening;
 use vaso_boundary::{Condition, Source, Waveform, Windkessel, mean_split};
 
-/// Puts the outlets that ask for it at the start of their periodic cycle: that of the Windkessel alone, under its
-/// share of the inflow at the mean pressure all outlets have in common.
+/// Puts the outlets that ask for it where their periodic cycle will be once the inflow has risen: that of the Windkessel alone, under
+/// its share of the inflow at the mean pressure all outlets have in common.
 ///
 /// # Errors
 /// When the inflow does not repeat, an outlet does not set its pressure by the flow, or the pressure would rise for ever.
@@ -31,18 +31,25 @@ pub(crate) fn periodic(case: &Case, openings: &mut [PlannedOpening]) -> Result<(
     })?;
     let models: Vec<Windkessel> = openings.iter().filter_map(|o| o.condition.model().map(|m| m.0)).collect();
     let (_, shares) = mean_split(&models, inflow.mean()).map_err(|e| wrong(e.to_string()))?;
+    let rising = openings.iter().find_map(|o| match &o.condition {
+        Condition::Velocity { mean, .. } => Some(mean),
+        _ => None,
+    });
     let mut share = shares.iter();
     let mut starts = Vec::with_capacity(openings.len());
     for opening in openings.iter() {
         let start = match (opening.condition.model(), asks(&opening.name)) {
             (Some((model, _)), asked) => {
                 let share = share.next().copied().unwrap_or(0.0);
-                let cycle = asked.then(|| model.periodic(&inflow.scaled(share)));
-                cycle.transpose().map_err(|e| wrong(e.to_string()))?
+                let flow = inflow.scaled(share);
+                let cycle =
+                    asked.then(|| model.periodic(&flow)).transpose().map_err(|e| wrong(e.to_string()))?;
+                let ahead = rising.map_or(0.0, |signal| model.head_start(&flow, signal));
+                cycle.map(|cycle| cycle.start.stored_pressure + ahead)
             }
             (None, _) => None,
         };
-        starts.push(start.map(|cycle| cycle.start.stored_pressure));
+        starts.push(start);
     }
     for (opening, start) in openings.iter_mut().zip(starts) {
         if let (Condition::Windkessel { initial_pressure, .. }, Some(start)) = (&mut opening.condition, start)

@@ -103,8 +103,6 @@ pub struct Fluid<R> {
     /// One more than the place in the zone list, zero away from caps.
     pub(crate) zone_of: Vec<u32>,
     pub(crate) lattice_sum: f64,
-    /// What the kernel sum exceeds the density by \[kg/m^3\].
-    pub(crate) surplus: Vec<f64>,
     /// Volume of a vessel at rest, its buffers by the share with which their particles count \[m^3\]; from the first step on.
     pub(crate) capacity: Option<f64>,
     /// Time since the first of the acoustic steps \[s\].
@@ -145,7 +143,6 @@ impl<R: Real> Fluid<R> {
             slope: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
-            surplus: Vec::new(),
             capacity: None,
             elapsed: 0.0,
             wall_distance,
@@ -181,7 +178,6 @@ impl<R: Real> Fluid<R> {
             + self.grid.bytes()
             + self.frozen.capacity() * size_of::<Frozen>()
             + self.slope.capacity() * size_of::<DMat3>()
-            + 8 * self.surplus.capacity()
             + 4 * (self.zone_of.capacity() + self.order.capacity())
     }
 

@@ -1,4 +1,4 @@
-//! Blends the density towards the kernel sum, and its mean towards the number of particles.
+//! Holds the mean density at what the mass in the vessel says.
 
 use crate::cap::CapZone;
 use crate::fluid::{Fluid, first_of};
@@ -7,46 +7,59 @@ use vaso_kernels::{CHUNK, Real};
 
 /// Sums over particles that give the means of a vessel.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+pub(crate) struct Sums {
     /// Mass outside the buffers \[kg\].
     mass: f64,
-    /// The same times what the kernel sum exceeds the density by \[kg^2/m^3\].
-    surplus: f64,
+    /// The same times the density change \[kg^2/m^3\].
+    change: f64,
     /// Mass, in the buffers by its share \[kg\].
     held: f64,
     /// The same times the density change \[kg^2/m^3\].
-    change: f64,
+    held_change: f64,
 }
 
 impl Sums {
     fn plus(self, other: Self) -> Self {
         Self {
             mass: self.mass + other.mass,
-            surplus: self.surplus + other.surplus,
-            held: self.held + other.held,
             change: self.change + other.change,
+            held: self.held + other.held,
+            held_change: self.held_change + other.held_change,
         }
     }
 }
 
 impl<R: Real> Fluid<R> {
-    /// `rho += omega (rho_sum - rho)` away from buffers, where `rho_sum` has the mean of the mass in the vessel if that is held.
+    /// Sums over all particles, where the mean density is held.
+    pub(crate) fn sums_to_hold(&self, zones: &[CapZone]) -> Option<Sums> {
+        (self.numbers.hold_mass && self.moving.is_none()).then(|| self.sums(zones))
+    }
+
+    /// Takes the mean of what the kernel sums brought since `before` back, and blends the mean density towards the mass in the vessel
+    /// instead.
     ///
     /// The kernel sum of an uneven set is larger than that of an even one of the same number, and how even a set is changes with the
     /// beat: taken at its word, the vessel would swallow and give back blood.
-    pub(crate) fn blend(&mut self, zones: &[CapZone]) {
-        let omega = self.numbers.density_blend;
-        let level = if self.numbers.hold_mass && self.moving.is_none() { self.level(zones) } else { 0.0 };
-        let (zone_of, surplus) = (&self.zone_of, &self.surplus);
+    pub(crate) fn hold_mean(&mut self, before: Sums, zones: &[CapZone]) {
+        if before.mass <= 0.0 || before.held <= 0.0 {
+            return;
+        }
+        let after = self.sums(zones);
+        let mean = before.held_change / before.held;
+        let rho0 = self.numbers.rest_density;
+        let capacity = *self.capacity.get_or_insert(before.held / (rho0 + mean));
+        let lacking = before.held / capacity - rho0 - mean;
+        let brought = (after.change - before.change) / before.mass;
+        let rise = self.numbers.density_blend * lacking - brought;
+        let zone_of = &self.zone_of;
         self.state.density_change.par_iter_mut().enumerate().with_min_len(4096).for_each(|(i, change)| {
             if !in_buffer(zones, zone_of[i]) {
-                *change += omega * (surplus[i] + level);
+                *change += rise;
             }
         });
     }
 
-    /// What the kernel sums lack in the mean \[kg/m^3\].
-    fn level(&mut self, zones: &[CapZone]) -> f64 {
+    fn sums(&self, zones: &[CapZone]) -> Sums {
         let n = self.state.len();
         let state = &self.state;
         // In chunks of fixed size and in their order: the same bits for any number of threads.
@@ -58,30 +71,22 @@ impl<R: Real> Fluid<R> {
                 for i in first_of(c)..n.min(first_of(c + 1)) {
                     let zone = self.zone_of[i];
                     let share = if zone == 0 { 1.0 } else { zones[zone as usize - 1].share };
-                    let mass = state.mass[i];
+                    let (mass, change) = (state.mass[i], state.density_change[i]);
                     sums.held += share * mass;
-                    sums.change += share * mass * state.density_change[i];
+                    sums.held_change += share * mass * change;
                     if !in_buffer(zones, zone) {
                         sums.mass += mass;
-                        sums.surplus += mass * self.surplus[i];
+                        sums.change += mass * change;
                     }
                 }
                 sums
             })
             .collect();
-        let sums = chunks.into_iter().fold(Sums::default(), Sums::plus);
-        if sums.mass <= 0.0 || sums.held <= 0.0 {
-            return 0.0;
-        }
-        let mean = sums.change / sums.held;
-        let rho0 = self.numbers.rest_density;
-        let capacity = *self.capacity.get_or_insert(sums.held / (rho0 + mean));
-        let lacking = sums.held / capacity - rho0 - mean;
-        lacking - sums.surplus / sums.mass
+        chunks.into_iter().fold(Sums::default(), Sums::plus)
     }
 }
 
 /// Whether a particle with this entry in the list of zones is in a buffer.
-fn in_buffer(zones: &[CapZone], zone: u32) -> bool {
+pub(crate) fn in_buffer(zones: &[CapZone], zone: u32) -> bool {
     zone != 0 && zones[zone as usize - 1].in_buffer
 }

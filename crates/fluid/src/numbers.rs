@@ -25,6 +25,8 @@ pub struct Numbers {
     pub density_blend: f64,
     /// Where walls are at rest, the mean density follows the mass in the vessel instead of the kernel sum.
     pub hold_mass: bool,
+    /// Where walls are at rest, particles below the reference pressure take the difference of pressures instead of their sum.
+    pub tensile_control: bool,
     /// Limiter of the velocity-jump dissipation; at 100 it is in effect the full acoustic jump.
     pub dissipation_limiter: f64,
     /// Strength of the transport-velocity shift a step.
@@ -54,6 +56,7 @@ impl Numbers {
             smoothing_length: 1.3 * spacing,
             density_blend: 0.1,
             hold_mass: false,
+            tensile_control: false,
             dissipation_limiter: 100.0,
             shift_strength: 0.2,
             shift_limit: 0.05,

@@ -3,6 +3,7 @@
 use crate::cap::CapZone;
 use crate::fluid::{Fluid, numbered};
 use crate::law::moments::{Moments, SUMS};
+use crate::level::in_buffer;
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, sweep};
@@ -19,13 +20,14 @@ impl<R: Real> Fluid<R> {
         self.current.resize(n);
         self.next.resize(n);
         self.second.resize(n);
-        self.surplus.resize(n, 0.0);
         let mut current = std::mem::take(&mut self.current);
         current.fill(|i| {
             let mass = self.state.mass[i];
             self.record(i, mass / (rho0 + self.state.density_change[i]), mass / rho0)
         });
 
+        let held = self.sums_to_hold(zones);
+        let omega = self.numbers.density_blend;
         let value = self.kernel.value_scale();
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
@@ -39,15 +41,15 @@ impl<R: Real> Fluid<R> {
             Gather { frame, own: &current, other: &wall.kinematic, own_second: None, other_second: None };
         (
             self.frozen.par_chunks_mut(CHUNK),
-            self.state.density_change.par_chunks(CHUNK),
-            self.surplus.par_chunks_mut(CHUNK),
+            self.state.density_change.par_chunks_mut(CHUNK),
+            self.zone_of.par_chunks(CHUNK),
             self.second.as_mut_slice().par_chunks_mut(CHUNK),
             rows.chunks(),
             wall.fluid_rows.chunks(),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (frozen, density_change, surplus, second, row, wall_row))| {
+            .for_each(|(c, (frozen, density_change, zone_of, second, row, wall_row))| {
                 let mut fluid = [[0.0; SUMS]; CHUNK];
                 let mut walls = [[0.0; SUMS]; CHUNK];
                 sweep(isa, &Moments, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
@@ -60,7 +62,9 @@ impl<R: Real> Fluid<R> {
                     // The self term has u = 1, so u^4 (5 - 4u) = 1.
                     let kernel_sum = value * (f[0] + mass[i] / rho0 + w[0]);
                     let summed = rho0 * (kernel_sum / s0 - 1.0);
-                    surplus[k] = summed - density_change[k];
+                    if !in_buffer(zones, zone_of[k]) {
+                        density_change[k] += omega * (summed - density_change[k]);
+                    }
                     let moment = Sym3(std::array::from_fn(|q| gradient * support * (f[4 + q] + w[4 + q])));
                     let frozen = &mut frozen[k];
                     frozen.correction = Sym3::correction(&moment);
@@ -72,7 +76,9 @@ impl<R: Real> Fluid<R> {
                 }
             });
         self.current = current;
-        self.blend(zones);
+        if let Some(before) = held {
+            self.hold_mean(before, zones);
+        }
     }
 }
 

@@ -178,6 +178,7 @@ pub(crate) const KEYS: &[Key] = &[
     key("numerics.sound_speed_factor", Number(Range::closed(3.0, 200.0)), Default("10"), "Least ratio of the chosen sound speed to the expected largest velocity."),
     key("numerics.density_blend", Number(Range::closed(0.0, 1.0)), Optional("chosen from the resolution"), "Share of the summed density mixed in at every advective step."),
     key("numerics.hold_mass", Flag, Default("false"), "The mean density of a vessel at rest follows the mass in it instead of the kernel sum; for long vessels whose flow is slowed down in every beat."),
+    key("numerics.tensile_control", Flag, Default("false"), "Particles below the reference pressure take the difference of pressures, which keeps them evenly spread; for long vessels whose flow is slowed down in every beat. Not where walls deform."),
     key("numerics.smoothing_length", Number(Range::closed(1.0, 2.0)), Default("1.3"), "Smoothing length in spacings; the support radius is twice this."),
     key("numerics.seed", ANY_U64, Default("0"), "Seed of everything random."),
     key("numerics.reference_pressure", QuantityOr("auto", PRESSURE, Range::ANY), Default("auto"), "Pressure subtracted in the equation of state; \"auto\" follows the outlets for rigid walls."),

@@ -2,7 +2,7 @@
 
 use super::{Integration, OutletState, Windkessel};
 use crate::error::BoundaryError;
-use crate::waveform::Waveform;
+use crate::waveform::{Signal, Waveform};
 
 /// A periodic cycle of an outlet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +69,25 @@ impl Windkessel {
             before = state.pressure;
         });
         Ok(cycle)
+    }
+}
+
+impl Windkessel {
+    /// How much more the store has to hold at the start for the outlet to be on its cycle under `flow` \[m^3/s\] once an inflow has
+    /// risen as `signal` does \[Pa\]: what the rise keeps back is missing for as long as the store remembers.
+    ///
+    /// Nothing for an outlet that forgets within the rise.
+    pub fn head_start(&self, flow: &Waveform, signal: &Signal) -> f64 {
+        let (rise, memory) = (signal.ramp, self.time_constant());
+        if rise <= 0.0 || memory < rise || self.compliance.is_infinite() {
+            return 0.0;
+        }
+        let step = rise / STEPS as f64;
+        let kept_back = |k: usize| {
+            let t = (k as f64 + 0.5) * step;
+            (1.0 - signal.risen(t)) * flow.at(t) * (t / memory).exp()
+        };
+        (0..STEPS).map(kept_back).sum::<f64>() * step / self.compliance
     }
 }
 

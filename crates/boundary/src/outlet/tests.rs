@@ -1,7 +1,7 @@
 //! The models against closed forms.
 
 use super::*;
-use crate::waveform::Waveform;
+use crate::waveform::{Signal, Source, Waveform};
 use std::f64::consts::TAU;
 
 const PERIOD: f64 = 0.8;
@@ -160,6 +160,33 @@ fn the_periodic_start_returns_after_a_cycle() {
         });
         assert!((end.pressure - cycle.start.pressure).abs() < 1e-9 * cycle.mean, "tau {tau} s");
     }
+}
+
+#[test]
+fn a_head_start_makes_up_for_a_slow_start() {
+    let time: Vec<f64> = (0..40).map(|k| PERIOD * f64::from(k) / 40.0).collect();
+    let value = time.iter().map(|&t| sine(t)).collect();
+    let flow = Waveform::new(time, value, Some(PERIOD)).expect("valid");
+    let signal = Signal { source: Source::Waveform(flow.clone()), ramp: 0.1 * PERIOD };
+    let n = 4000;
+    let run = |model: &Windkessel, start: f64, flow: &dyn Fn(f64) -> f64| {
+        (1..=n).fold(OutletState::at_rest(start), |state, k| {
+            let t = PERIOD * f64::from(k) / f64::from(n);
+            model.advance(&state, flow(t), PERIOD / f64::from(n), Integration::Exponential)
+        })
+    };
+    for tau in [0.3, 2.3, 50.0] {
+        let model = windkessel(tau);
+        let start = model.periodic(&flow).expect("periodic").start.stored_pressure;
+        let ahead = model.head_start(&flow, &signal);
+        let [cycle, risen] =
+            [run(&model, start, &|t| flow.at(t)), run(&model, start + ahead, &|t| signal.at(t))];
+        let missing = run(&model, start, &|t| signal.at(t)).stored_pressure - cycle.stored_pressure;
+        let left = risen.stored_pressure - cycle.stored_pressure;
+        assert!(left.abs() <= 1e-3 * missing.abs(), "tau {tau} s: {left} Pa of {missing}");
+    }
+    // One that forgets within the rise has nothing to make up for.
+    assert_eq!(windkessel(0.01 * PERIOD).head_start(&flow, &signal), 0.0);
 }
 
 #[test]
