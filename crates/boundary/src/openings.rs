@@ -1,6 +1,6 @@
 //! All openings of a run, and the pressure level they set.
 
-use crate::outlet::{Coupling, Outlet, OutletState, common_pressure};
+use crate::outlet::{CoupledState, Coupling, Outlet, OutletState, common_pressure};
 use crate::port::{Condition, Counters, Passed, Port, PortState};
 use crate::profile::Inlet;
 use crate::room::places;
@@ -8,6 +8,7 @@ use glam::DVec3;
 use num_complex::Complex64;
 use vaso_fluid::{CapZone, Numbers};
 use vaso_geometry::Opening;
+use vaso_particles::Memory;
 
 /// Length of a buffer, in spacings.
 pub const BUFFER_LENGTH: f64 = 4.0;
@@ -142,6 +143,21 @@ impl Openings {
             port.counters = state.counters;
             if let (Some(outlet), Some(state)) = (&mut port.outlet, state.outlet) {
                 outlet.state = state;
+            }
+        }
+    }
+
+    /// Shows all that the openings carry from step to step; what has been read stands for [`Self::start`].
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        memory.counts("openings.next_id", &mut [&mut self.next_id]);
+        for (k, port) in self.ports.iter_mut().enumerate() {
+            let Counters { injected, deleted, strays, outflow_volume, damped_energy } = &mut port.counters;
+            memory.counts(&format!("openings.{k}.particles"), &mut [injected, deleted, strays]);
+            memory.fields(&format!("openings.{k}.sums"), &mut [outflow_volume, damped_energy]);
+            if let Some(outlet) = &mut port.outlet {
+                let mut state = outlet.state.to_array();
+                memory.fields(&format!("openings.{k}.outlet"), &mut state.each_mut());
+                outlet.state = CoupledState::from_array(state);
             }
         }
     }

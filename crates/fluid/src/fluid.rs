@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use vaso_kernels::{
     CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland,
 };
-use vaso_particles::{WallDistance, WallView, visit};
+use vaso_particles::{Memory, WallDistance, WallView, visit};
 
 /// What a particle keeps for all acoustic steps of one advective step.
 #[derive(Clone, Copy, Debug)]
@@ -183,6 +183,12 @@ impl<R: Real> Fluid<R> {
             + self.slope.capacity() * size_of::<DMat3>()
             + 8 * self.surplus.capacity()
             + 4 * (self.zone_of.capacity() + self.order.capacity())
+    }
+
+    /// Shows all that the fluid carries from one advective step to the next: everything else is found anew in each.
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        memory.columns("fluid", &mut self.state);
+        memory.optional("fluid.capacity_m3", &mut self.capacity);
     }
 
     /// Volume \[m^3\] of a vessel at rest that its mass is compared with, from the first step on: all that a checkpoint needs besides the

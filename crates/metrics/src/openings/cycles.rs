@@ -3,6 +3,7 @@
 use crate::clock::CycleClock;
 use crate::error::MetricsError;
 use crate::openings::statistics::{OpeningCycle, Waveform};
+use vaso_particles::Memory;
 
 /// Parts a cycle is divided into: fine enough for any pulse, coarse enough to be free of sound and of single particles.
 pub const BINS: usize = 100;
@@ -20,8 +21,7 @@ pub struct OpeningSample {
 
 /// Sums over the cycle that is going on, for every opening.
 ///
-/// Between samples flow and pressure are taken to go in a straight line; sums are exact for that. For a checkpoint:
-/// [`state`](Self::state) and [`restore`](Self::restore).
+/// Between samples flow and pressure are taken to go in a straight line; sums are exact for that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningCycles {
     names: Vec<String>,
@@ -108,7 +108,15 @@ impl OpeningCycles {
         })
     }
 
-    /// All numbers that change, for a checkpoint: as floats, and the number of the current bin.
+    /// Shows all that changes, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let (mut floats, mut bin) = self.state();
+        memory.fixed_numbers(name, &mut floats);
+        memory.counts(&format!("{name}.bin"), &mut [&mut bin]);
+        self.restore(&floats, bin).expect("as many numbers as the state has");
+    }
+
+    /// All numbers that change: as floats, and the number of the current bin.
     pub fn state(&self) -> (Vec<f64>, u64) {
         let mut floats = vec![self.clock.last().unwrap_or(f64::NAN)];
         floats.extend(&self.covered);
