@@ -1,7 +1,7 @@
 //! All openings of a run, and the pressure level they set.
 
 use crate::outlet::{CoupledState, Coupling, Outlet, OutletState, common_pressure};
-use crate::port::{Condition, Counters, Passed, Port, PortState};
+use crate::port::{Condition, Counters, Passed, Port};
 use crate::profile::Inlet;
 use crate::room::places;
 use glam::DVec3;
@@ -126,27 +126,6 @@ impl Openings {
         }
     }
 
-    /// What the openings carry from step to step, one by one; with [`Self::next_id`] all that a checkpoint needs.
-    pub fn states(&self) -> Vec<PortState> {
-        let state = |p: &Port| PortState { counters: p.counters, outlet: p.outlet.as_ref().map(|o| o.state) };
-        self.ports.iter().map(state).collect()
-    }
-
-    /// Goes on from what [`Self::states`] and [`Self::next_id`] gave, instead of [`Self::start`].
-    ///
-    /// # Panics
-    /// When there are not as many states as openings, which the reader of a checkpoint has to check.
-    pub fn restore(&mut self, states: &[PortState], next_id: u64) {
-        assert_eq!(states.len(), self.ports.len(), "a state for each opening");
-        self.next_id = next_id;
-        for (port, state) in self.ports.iter_mut().zip(states) {
-            port.counters = state.counters;
-            if let (Some(outlet), Some(state)) = (&mut port.outlet, state.outlet) {
-                outlet.state = state;
-            }
-        }
-    }
-
     /// Shows all that the openings carry from step to step; what has been read stands for [`Self::start`].
     pub fn remember(&mut self, memory: &mut dyn Memory) {
         memory.counts("openings.next_id", &mut [&mut self.next_id]);
@@ -155,9 +134,12 @@ impl Openings {
             memory.counts(&format!("openings.{k}.particles"), &mut [injected, deleted, strays]);
             memory.fields(&format!("openings.{k}.sums"), &mut [outflow_volume, damped_energy]);
             if let Some(outlet) = &mut port.outlet {
-                let mut state = outlet.state.to_array();
-                memory.fields(&format!("openings.{k}.outlet"), &mut state.each_mut());
-                outlet.state = CoupledState::from_array(state);
+                let CoupledState { outlet: model, section, offset, window_volume, window_time } =
+                    &mut outlet.state;
+                let OutletState { pressure, stored_pressure, flow } = model;
+                memory.fields(&format!("openings.{k}.model"), &mut [pressure, stored_pressure, flow]);
+                let buffer = &mut [section, offset, window_volume, window_time];
+                memory.fields(&format!("openings.{k}.coupling"), buffer);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What is imposed at an opening, and what is seen there.
 
 use crate::error::BoundaryError;
-use crate::outlet::{CoupledState, Outlet, OutletState, Windkessel};
+use crate::outlet::{Outlet, OutletState, Windkessel};
 use crate::profile::{Amplitudes, Inlet, Profile};
 use crate::waveform::Signal;
 use serde::{Deserialize, Serialize};
@@ -120,15 +120,6 @@ pub(crate) struct Passed {
     pub volume: f64,
     /// Kinetic energy out of the vessel \[J\].
     pub kinetic_energy: f64,
-}
-
-/// What an opening carries from step to step, to be kept in a checkpoint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PortState {
-    /// What went through.
-    pub counters: Counters,
-    /// Where the outlet model stands, if there is one.
-    pub outlet: Option<CoupledState>,
 }
 
 /// Mean state of an opening.

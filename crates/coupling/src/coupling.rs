@@ -98,8 +98,16 @@ impl<W: MovingWall> Coupling<W> {
     /// effect with [`MovingWall::resume`] of the wall.
     pub fn remember(&mut self, memory: &mut dyn Memory) {
         // Forces are taken anew before they act, and the velocity before a step is noted in each.
-        let Self { wall, substeps, steps, work, pressure_force: _, viscous_force: _, acceleration, before: _ } =
-            self;
+        let Self {
+            wall,
+            substeps,
+            steps,
+            work,
+            pressure_force: _,
+            viscous_force: _,
+            acceleration,
+            before: _,
+        } = self;
         wall.remember(memory);
         memory.counts("coupling.steps", &mut [substeps, steps]);
         memory.fields("coupling.work_j", &mut [work]);

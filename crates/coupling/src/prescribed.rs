@@ -78,7 +78,17 @@ impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> MovingWall for Prescribed<F> {
     }
 
     fn remember(&mut self, memory: &mut dyn Memory) {
-        let Self { origin: _, position: _, velocity: _, depth: _, volume: _, motion: _, time, work, force: _ } = self;
+        let Self {
+            origin: _,
+            position: _,
+            velocity: _,
+            depth: _,
+            volume: _,
+            motion: _,
+            time,
+            work,
+            force: _,
+        } = self;
         memory.fields("wall.time_s", &mut [time]);
         memory.fields("wall.work_j", &mut [work]);
     }

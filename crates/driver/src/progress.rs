@@ -33,7 +33,13 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{bar:32} {percent:>3} % {msg}") {
             bar.set_style(style);
         }
-        Self { bar, lines: !terminal && !quiet, started: Instant::now(), last_line: Instant::now(), before: (0.0, 0) }
+        Self {
+            bar,
+            lines: !terminal && !quiet,
+            started: Instant::now(),
+            last_line: Instant::now(),
+            before: (0.0, 0),
+        }
     }
 
     /// Tells a step of the relaxation of a body.

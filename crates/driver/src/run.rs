@@ -7,10 +7,10 @@ use crate::error::DriverError;
 use crate::flow::{Diverged, Flow};
 use crate::ledger::Stage;
 use crate::plan::Plan;
+use crate::print;
 use crate::progress::Progress;
 use crate::results::{Results, append_frame};
 use crate::world::{Bodies, build_flow_in};
-use crate::print;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -154,9 +154,11 @@ impl<R: Real, W: Deforming> Running<R, W> {
                 checkpoint.origin.check(&origin, case)?;
                 checkpoint.restore(&mut flow)?;
                 let has_wall = plan.wall_metrics || plan.deforms();
-                let series: &[&str] = if has_wall { &["fluid.vtkhdf", "wall.vtkhdf"] } else { &["fluid.vtkhdf"] };
+                let series: &[&str] =
+                    if has_wall { &["fluid.vtkhdf", "wall.vtkhdf"] } else { &["fluid.vtkhdf"] };
                 let has_probes = !case.scene.probes.is_empty();
-                let tables: &[&str] = if has_probes { &["openings.csv", "probes.csv"] } else { &["openings.csv"] };
+                let tables: &[&str] =
+                    if has_probes { &["openings.csv", "probes.csv"] } else { &["openings.csv"] };
                 checkpoint.standing.check(out, series, tables)?;
                 let folder = OutputDir::go_on(out).map_err(|error| match error.is_disk_full() {
                     true => error.into(),
@@ -181,7 +183,9 @@ impl<R: Real, W: Deforming> Running<R, W> {
     /// kill while the last files are written loses nothing.
     fn advance(&mut self, job: &Job, progress: &mut Progress) -> Result<Ending, DriverError> {
         let &Job { case, plan, .. } = job;
-        if let Start::From(Checkpoint { surroundings: Surroundings { ending: Some(ending), .. }, .. }) = job.start {
+        if let Start::From(Checkpoint { surroundings: Surroundings { ending: Some(ending), .. }, .. }) =
+            job.start
+        {
             return Ok(Some(ending.clone()));
         }
         let mut due = Due::new(case.scene.output.checkpoint_every, self.flow.time);

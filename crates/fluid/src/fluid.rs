@@ -191,17 +191,6 @@ impl<R: Real> Fluid<R> {
         memory.optional("fluid.capacity_m3", &mut self.capacity);
     }
 
-    /// Volume \[m^3\] of a vessel at rest that its mass is compared with, from the first step on: all that a checkpoint needs besides the
-    /// columns of [`Self::state`].
-    pub fn capacity(&self) -> Option<f64> {
-        self.capacity
-    }
-
-    /// Goes on with what [`Self::capacity`] gave.
-    pub fn set_capacity(&mut self, capacity: Option<f64>) {
-        self.capacity = capacity;
-    }
-
     /// Puts the particles in cell order.
     pub fn sort(&mut self) {
         self.grid.sort(&self.state.position, &mut self.order);

@@ -7,8 +7,8 @@
 mod coupling;
 mod periodic;
 
-pub use coupling::{CoupledState, Coupling};
-pub(crate) use coupling::{Outlet, Seen, common_pressure};
+pub use coupling::Coupling;
+pub(crate) use coupling::{CoupledState, Outlet, Seen, common_pressure};
 pub use periodic::{Cycle, mean_split};
 
 use crate::error::BoundaryError;

@@ -105,7 +105,8 @@ impl Checkpoint {
         let origin = serde_json::from_slice(text(ORIGIN)?).map_err(|_| missing(ORIGIN))?;
         let ending = serde_json::from_slice(text(ENDING)?).map_err(|_| missing(ENDING))?;
         let wall_clock = archive.floats(WALL_CLOCK).and_then(<[f64]>::first).copied();
-        let surroundings = Surroundings { ending, wall_clock: wall_clock.ok_or_else(|| missing(WALL_CLOCK))? };
+        let surroundings =
+            Surroundings { ending, wall_clock: wall_clock.ok_or_else(|| missing(WALL_CLOCK))? };
         let mut standing = Standing::default();
         archive.recall(&path, |memory| standing.remember(memory)).map_err(|e| unusable(e.to_string()))?;
         Ok(Self { path, archive, origin, standing, surroundings })

@@ -134,9 +134,7 @@ fn path_from(out: &Path, file: &Path) -> String {
     let (out, file) = (whole(out), whole(file));
     let below = file.parent().and_then(|folder| out.strip_prefix(folder).ok());
     let path = match (below, file.file_name()) {
-        (Some(below), Some(name)) => {
-            below.components().map(|_| "..").collect::<PathBuf>().join(name)
-        }
+        (Some(below), Some(name)) => below.components().map(|_| "..").collect::<PathBuf>().join(name),
         _ => file,
     };
     path.to_string_lossy().into_owned()

@@ -9,9 +9,9 @@ use crate::observe::Observers;
 use crate::plan::Plan;
 use frames::interpolate;
 use glam::DVec3;
+use std::path::PathBuf;
 use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
-use std::path::PathBuf;
 use vaso_io::{
     EndReason, IoError, OutputDir, SeriesWriter, SurfaceField, SurfaceMesh, SurfaceSeriesWriter, Table,
 };
@@ -149,11 +149,7 @@ impl<F> Results<F> {
         let wall = observers.wall.as_ref().map(|w| WallFile::create(wall_file.clone(), w, fields, kept));
         Ok(Self {
             wall: wall.transpose()?,
-            deforming: flow
-                .wall
-                .as_ref()
-                .map(|wall| wall.wall.create(wall_file, case, kept))
-                .transpose()?,
+            deforming: flow.wall.as_ref().map(|wall| wall.wall.create(wall_file, case, kept)).transpose()?,
             folder: out.path().to_owned(),
             fluid: open(out.file("fluid.vtkhdf"), kept)?,
             table,

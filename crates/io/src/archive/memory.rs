@@ -149,6 +149,9 @@ mod tests {
         assert_eq!(other.force.len(), 3);
         let empty = Archive::new("checkpoint", 1);
         let error = empty.recall(Path::new("a.h5"), |memory| other.remember(memory)).unwrap_err();
-        assert!(error.to_string().contains("`part.clock`") && error.to_string().contains("missing"), "{error}");
+        assert!(
+            error.to_string().contains("`part.clock`") && error.to_string().contains("missing"),
+            "{error}"
+        );
     }
 }

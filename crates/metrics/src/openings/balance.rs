@@ -83,7 +83,8 @@ impl EnergyBalance {
     pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
         let Self { last, initial_kinetic_energy, inflow, throughput, dissipated } = self;
         memory.fields(name, &mut [initial_kinetic_energy, inflow, throughput, dissipated]);
-        let (mut time, mut now) = last.map_or((None, EnergySample::default()), |(time, now)| (Some(time), now));
+        let (mut time, mut now) =
+            last.map_or((None, EnergySample::default()), |(time, now)| (Some(time), now));
         memory.optional(&format!("{name}.last_s"), &mut time);
         let EnergySample { inflow_power, dissipation, kinetic_energy } = &mut now;
         memory.fields(&format!("{name}.last"), &mut [inflow_power, dissipation, kinetic_energy]);

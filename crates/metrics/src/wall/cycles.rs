@@ -65,10 +65,7 @@ impl ShearCycles {
         if seen != needed {
             memory.refuse(name, format!("it has {seen} points, {needed} are needed"));
         }
-        let (mut cycle, mut last) = (self.clock.cycle(), self.clock.last());
-        memory.counts(&format!("{name}.cycle"), &mut [&mut cycle]);
-        memory.optional(&format!("{name}.last_s"), &mut last);
-        self.clock.resume(cycle, last);
+        self.clock.remember(&format!("{name}.clock"), memory);
     }
 
     /// Takes the stress \[Pa\] of all points at `time` \[s\]; gives the cycle that ended since the last sample, of several the
