@@ -1,6 +1,6 @@
 //! All openings of a run, and the pressure level they set.
 
-use crate::outlet::{CoupledState, Coupling, Outlet, OutletState, common_pressure};
+use crate::outlet::{Coupling, Outlet, OutletState, common_pressure};
 use crate::port::{Condition, Counters, Passed, Port};
 use crate::profile::Inlet;
 use crate::room::places;
@@ -128,19 +128,21 @@ impl Openings {
 
     /// Shows all that the openings carry from step to step; what has been read stands for [`Self::start`].
     pub fn remember(&mut self, memory: &mut dyn Memory) {
-        memory.counts("openings.next_id", &mut [&mut self.next_id]);
-        for (k, port) in self.ports.iter_mut().enumerate() {
-            let Counters { injected, deleted, strays, outflow_volume, damped_energy } = &mut port.counters;
-            memory.counts(&format!("openings.{k}.particles"), &mut [injected, deleted, strays]);
-            memory.fields(&format!("openings.{k}.sums"), &mut [outflow_volume, damped_energy]);
-            if let Some(outlet) = &mut port.outlet {
-                let CoupledState { outlet: model, section, offset, window_volume, window_time } =
-                    &mut outlet.state;
-                let OutletState { pressure, stored_pressure, flow } = model;
-                memory.fields(&format!("openings.{k}.model"), &mut [pressure, stored_pressure, flow]);
-                let buffer = &mut [section, offset, window_volume, window_time];
-                memory.fields(&format!("openings.{k}.coupling"), buffer);
-            }
+        let Self {
+            ports,
+            next_id,
+            numbers: _,
+            spacing: _,
+            reference: _,
+            places: _,
+            // Found anew at the begin of each step.
+            zones: _,
+            shape: _,
+            waves: _,
+        } = self;
+        memory.counts("openings.next_id", &mut [next_id]);
+        for (k, port) in ports.iter_mut().enumerate() {
+            port.remember(&format!("openings.{k}"), memory);
         }
     }
 

@@ -22,8 +22,9 @@ pub fn resume(out: &Path, stop: &AtomicBool, talk: &Talk) -> Result<Summary, Dri
     if let Ok(summary) = Summary::read(&out.join("summary.json"))
         && summary.status == Status::Completed
     {
-        // A kill after the summary may have left no report.
-        if !out.join("report.html").exists() {
+        // A kill after the summary may have left no report, or an earlier one.
+        let written = |name: &str| std::fs::metadata(out.join(name)).and_then(|file| file.modified()).ok();
+        if written("report.html") < written("summary.json") {
             vaso_report::write_report(out)?;
         }
         talk.say(&format!("finished {} holds a finished run: nothing to do", out.display()));

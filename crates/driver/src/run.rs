@@ -243,9 +243,12 @@ fn run_kind<R: Real, W: Deforming>(
         };
         summary.message = Some(error.to_string());
     }
+    let folder = results.folder().to_owned();
+    // Takes the hidden copies of the series away, before the summary says that the run is finished.
+    drop(results);
     // After a full disk the summary may not find room either; the first error is the one to tell.
-    let written = summary.write(&results.folder().join("summary.json")).map_err(DriverError::from);
-    let reported = vaso_report::write_report(results.folder()).map_err(DriverError::from);
+    let written = summary.write(&folder.join("summary.json")).map_err(DriverError::from);
+    let reported = vaso_report::write_report(&folder).map_err(DriverError::from);
     ended.and(written).and(reported)?;
     Ok(summary)
 }

@@ -187,8 +187,34 @@ impl<R: Real> Fluid<R> {
 
     /// Shows all that the fluid carries from one advective step to the next: everything else is found anew in each.
     pub fn remember(&mut self, memory: &mut dyn Memory) {
-        memory.columns("fluid", &mut self.state);
-        memory.optional("fluid.capacity_m3", &mut self.capacity);
+        let Self {
+            state,
+            capacity,
+            numbers: _,
+            kernel: _,
+            isa: _,
+            frame: _,
+            grid: _,
+            order: _,
+            set: _,
+            rows: _,
+            wall: _,
+            moving: _,
+            current: _,
+            next: _,
+            second: _,
+            offsets: _,
+            frozen: _,
+            slope: _,
+            zone_of: _,
+            lattice_sum: _,
+            surplus: _,
+            elapsed: _,
+            wall_distance: _,
+            reach: _,
+        } = self;
+        memory.columns("fluid", state);
+        memory.optional("fluid.capacity_m3", capacity);
     }
 
     /// Puts the particles in cell order.

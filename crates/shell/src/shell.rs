@@ -195,14 +195,27 @@ impl<R: Real> Shell<R> {
     /// Shows all that the shell carries from step to step, under `name`. What has been read takes effect with [`Self::resume`].
     pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
         memory.columns(name, self);
-        let (seen, needed) = (self.state.len(), self.place.len());
+        let Self {
+            state,
+            loads,
+            ledger,
+            place,
+            numbers: _,
+            forces: _,
+            supports: _,
+            shown: _,
+            ready: _,
+            frequency: _,
+            damping_time: _,
+        } = self;
+        let (seen, needed) = (state.len(), place.len());
         if seen != needed {
             memory.refuse(name, format!("it has {seen} particles, the shell {needed}"));
         }
-        let Ledger { dissipation, load_work } = &mut self.ledger;
+        let Ledger { dissipation, load_work } = ledger;
         memory.fields(&format!("{name}.energies_j"), &mut [dissipation, load_work]);
         // Empty before the first load.
-        memory.vectors(&format!("{name}.load_n"), &mut self.loads.fluid);
+        memory.vectors(&format!("{name}.load_n"), &mut loads.fluid);
     }
 
     /// Bytes held.

@@ -283,14 +283,28 @@ impl<R: Real> Solid<R> {
     /// Shows all that the body carries from step to step, under `name`. What has been read takes effect with [`Self::resume`].
     pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
         memory.columns(name, self);
-        let (seen, needed) = (self.state.len(), self.place.len());
+        // The formulation shows what it carries as columns.
+        let Self {
+            state,
+            loads,
+            ledger,
+            place,
+            material: _,
+            numbers: _,
+            body: _,
+            planes: _,
+            shown: _,
+            ready: _,
+            precision: _,
+        } = self;
+        let (seen, needed) = (state.len(), place.len());
         if seen != needed {
             memory.refuse(name, format!("it has {seen} particles, the body {needed}"));
         }
-        let Ledger { dissipation, load_work } = &mut self.ledger;
+        let Ledger { dissipation, load_work } = ledger;
         memory.fields(&format!("{name}.energies_j"), &mut [dissipation, load_work]);
         // Empty before the first load.
-        memory.vectors(&format!("{name}.load_n"), &mut self.loads.fluid);
+        memory.vectors(&format!("{name}.load_n"), &mut loads.fluid);
     }
 
     /// Neighbour pairs, each direction counted.

@@ -2,6 +2,7 @@
 
 use super::{Integration, OutletState, Windkessel};
 use serde::{Deserialize, Serialize};
+use vaso_particles::Memory;
 
 /// How an outlet takes up the flow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -83,6 +84,17 @@ impl Outlet {
                 ..CoupledState::default()
             },
         }
+    }
+
+    /// Shows what it carries from step to step, under `name`.
+    pub(crate) fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { state, model: _, coupling: _, impedance: _, transit: _, settling: _ } = self;
+        let CoupledState { outlet, section, offset, window_volume, window_time } = state;
+        let OutletState { pressure, stored_pressure, flow } = outlet;
+        memory.fields(
+            name,
+            &mut [pressure, stored_pressure, flow, section, offset, window_volume, window_time],
+        );
     }
 
     /// Takes up what the buffer, of a `length` \[m\], shows after an acoustic step of `duration` \[s\].

@@ -8,7 +8,7 @@ mod coupling;
 mod periodic;
 
 pub use coupling::Coupling;
-pub(crate) use coupling::{CoupledState, Outlet, Seen, common_pressure};
+pub(crate) use coupling::{Outlet, Seen, common_pressure};
 pub use periodic::{Cycle, mean_split};
 
 use crate::error::BoundaryError;
