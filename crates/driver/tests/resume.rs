@@ -107,12 +107,12 @@ fn survives_kills(what: &str, settings: &[&str], kills: usize) -> usize {
         let part = (seed >> 11) as f64 / (1_u64 << 53) as f64;
         let threads = [1, 2, 4][killed % 3];
         // Killed before its first checkpoint, a run has nothing to go on from, and nothing that could be lost.
-        let command = if out.join("checkpoint.h5").exists() {
+        let mut command = if out.join("checkpoint.h5").exists() {
             setup.resume("broken", threads)
         } else {
             setup.run("broken", threads, settings)
         };
-        let mut child = { command }.spawn().expect("the program can be started");
+        let mut child = command.spawn().expect("the program can be started");
         std::thread::sleep(Duration::from_secs_f64(0.7 * part * whole));
         child.kill().expect("children can be killed");
         let output = child.wait_with_output().expect("it ends");
