@@ -143,23 +143,16 @@ impl<R: Real, W: Deforming> Running<R, W> {
             Start::Anew { force } => {
                 let folder = OutputDir::prepare(out, force)?;
                 let results = Results::create(&folder, case, plan, &flow, None)?;
-                let origin = Origin::new(case, plan, &wall, out)?;
+                let origin = Origin::new(case, plan, out)?.in_wall(&wall);
                 let mut running = Self { flow, results, origin };
                 // From here on a kill at any moment leaves something to go on from.
                 running.write_checkpoint(job, None)?;
                 Ok(running)
             }
             Start::From(checkpoint) => {
-                let origin = Origin::new(case, plan, &wall, out)?;
-                checkpoint.origin.check(&origin, case)?;
+                let origin = Origin::new(case, plan, out)?.in_wall(&wall);
+                checkpoint.origin.check_wall(&origin, case)?;
                 checkpoint.restore(&mut flow)?;
-                let has_wall = plan.wall_metrics || plan.deforms();
-                let series: &[&str] =
-                    if has_wall { &["fluid.vtkhdf", "wall.vtkhdf"] } else { &["fluid.vtkhdf"] };
-                let has_probes = !case.scene.probes.is_empty();
-                let tables: &[&str] =
-                    if has_probes { &["openings.csv", "probes.csv"] } else { &["openings.csv"] };
-                checkpoint.standing.check(out, series, tables)?;
                 let folder = OutputDir::go_on(out).map_err(|error| match error.is_disk_full() {
                     true => error.into(),
                     false => DriverError::input(error.to_string()),

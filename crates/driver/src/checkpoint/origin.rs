@@ -29,11 +29,11 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// That of a run of `case` in a wall of such particles, with its results in the folder `out`, which is there.
+    /// That of a run of `case` with its results in the folder `out`, which is there.
     ///
     /// # Errors
     /// When the surface cannot be read any more.
-    pub fn new(case: &Case, plan: &Plan, wall: &WallParticles, out: &Path) -> Result<Self, DriverError> {
+    pub fn new(case: &Case, plan: &Plan, out: &Path) -> Result<Self, DriverError> {
         let surface = &case.scene.geometry.surface;
         let bytes = std::fs::read(surface).map_err(|error| {
             DriverError::input(format!("{}: cannot be read again: {error}", surface.display()))
@@ -47,9 +47,15 @@ impl Origin {
             overrides: case.overrides.clone(),
             tables: case.scene.contents().into_iter().map(digest).collect(),
             surface: KeyBuilder::new("surface").bytes(&bytes).finish().to_string(),
-            wall: wall.digest(),
+            wall: String::new(),
             isa: plan.isa.name().to_owned(),
         })
+    }
+
+    /// The same once the particles of its wall are made.
+    #[must_use]
+    pub fn in_wall(self, wall: &WallParticles) -> Self {
+        Self { wall: wall.digest(), ..self }
     }
 
     /// The case file, for a run with its results in `out`.
@@ -67,7 +73,7 @@ impl Origin {
     /// warns of.
     ///
     /// # Errors
-    /// When the case is not where it was, or is wrong.
+    /// When the case is not where it was, is wrong, or says something else than when the run began.
     pub fn reopen(&self, out: &Path) -> Result<(Case, Plan), DriverError> {
         let file = self.case_file(out);
         if !file.is_file() {
@@ -79,6 +85,7 @@ impl Origin {
         }
         let case = Case::load(&file, &self.overrides)?;
         let mut plan = Plan::new(&case)?;
+        self.check(&Self::new(&case, &plan, out)?, &case)?;
         match Isa::available().into_iter().find(|isa| isa.name() == self.isa) {
             Some(isa) => plan.isa = isa,
             None => plan.warnings.push(format!(
@@ -99,10 +106,7 @@ impl Origin {
     }
 
     /// Refuses to go on where something is not as it was when the run began; `now` is the origin of the same case today.
-    ///
-    /// # Errors
-    /// Names all that has changed.
-    pub fn check(&self, now: &Self, case: &Case) -> Result<(), DriverError> {
+    fn check(&self, now: &Self, case: &Case) -> Result<(), DriverError> {
         let file = case.scene.file.display();
         let mut problems = Vec::new();
         for ((name, before), (_, today)) in self.tables.iter().zip(&now.tables) {
@@ -118,13 +122,22 @@ impl Origin {
                 case.scene.geometry.surface.display()
             ));
         }
-        if problems.is_empty() && self.wall != now.wall {
-            problems.push(format!(
-                "{file}: the particles of the wall are not those the run began with, although the case is: another version of the program \
-                 has made them; go on with that one, or start anew with `vaso run`"
-            ));
-        }
         if problems.is_empty() { Ok(()) } else { Err(DriverError::Input { problems }) }
+    }
+
+    /// Refuses a wall that has been made anew and is another one.
+    ///
+    /// # Errors
+    /// When its particles are not those the run began with.
+    pub fn check_wall(&self, now: &Self, case: &Case) -> Result<(), DriverError> {
+        if self.wall == now.wall {
+            return Ok(());
+        }
+        Err(DriverError::input(format!(
+            "{}: the particles of the wall are not those the run began with, although the case is: another version of the program has \
+             made them; go on with that one, or start anew with `vaso run`",
+            case.scene.file.display()
+        )))
     }
 }
 
