@@ -80,7 +80,6 @@ fn every_effect_goes_on_alike() {
             "solid in tissue",
             with(SOLID, &["wall.support.stiffness=1e6 Pa/m", "wall.support.damping=1e4 Pa s/m"]),
         ),
-        ("thin solid", with(SOLID, &["wall.thickness=0.5 mm", "wall.spacing=0.25 mm", "run.cycles=1"])),
         ("solid in double precision", with(SOLID, &["numerics.precision=double"])),
         ("linear shell", with(SHELL, &["wall.material=saint-venant-kirchhoff"])),
         ("thin shell", with(SHELL, &["wall.thickness=0.4 mm", "wall.ends=sliding"])),
