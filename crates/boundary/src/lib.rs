@@ -13,8 +13,8 @@ pub mod waveform;
 
 pub use error::BoundaryError;
 pub use openings::{BUFFER_LENGTH, Openings};
-pub use outlet::{CoupledState, Coupling, Cycle, Integration, OutletState, Windkessel, mean_split};
-pub use port::{Condition, Counters, Port, PortState, Reading};
+pub use outlet::{Coupling, Cycle, Integration, OutletState, Windkessel, mean_split};
+pub use port::{Condition, Counters, Port, Reading};
 pub use profile::{Inlet, Profile, Section};
 pub use tune::{Split, Target, Tuned, tune};
 pub use waveform::{Fourier, Interpolation, Signal, Source, Waveform, WaveformError};

@@ -1,13 +1,14 @@
 //! All openings of a run, and the pressure level they set.
 
 use crate::outlet::{Coupling, Outlet, OutletState, common_pressure};
-use crate::port::{Condition, Counters, Passed, Port, PortState};
+use crate::port::{Condition, Counters, Passed, Port};
 use crate::profile::Inlet;
 use crate::room::places;
 use glam::DVec3;
 use num_complex::Complex64;
 use vaso_fluid::{CapZone, Numbers};
 use vaso_geometry::Opening;
+use vaso_particles::Memory;
 
 /// Length of a buffer, in spacings.
 pub const BUFFER_LENGTH: f64 = 4.0;
@@ -125,24 +126,23 @@ impl Openings {
         }
     }
 
-    /// What the openings carry from step to step, one by one; with [`Self::next_id`] all that a checkpoint needs.
-    pub fn states(&self) -> Vec<PortState> {
-        let state = |p: &Port| PortState { counters: p.counters, outlet: p.outlet.as_ref().map(|o| o.state) };
-        self.ports.iter().map(state).collect()
-    }
-
-    /// Goes on from what [`Self::states`] and [`Self::next_id`] gave, instead of [`Self::start`].
-    ///
-    /// # Panics
-    /// When there are not as many states as openings, which the reader of a checkpoint has to check.
-    pub fn restore(&mut self, states: &[PortState], next_id: u64) {
-        assert_eq!(states.len(), self.ports.len(), "a state for each opening");
-        self.next_id = next_id;
-        for (port, state) in self.ports.iter_mut().zip(states) {
-            port.counters = state.counters;
-            if let (Some(outlet), Some(state)) = (&mut port.outlet, state.outlet) {
-                outlet.state = state;
-            }
+    /// Shows all that the openings carry from step to step; what has been read stands for [`Self::start`].
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self {
+            ports,
+            next_id,
+            numbers: _,
+            spacing: _,
+            reference: _,
+            places: _,
+            // Found anew at the begin of each step.
+            zones: _,
+            shape: _,
+            waves: _,
+        } = self;
+        memory.counts("openings.next_id", &mut [next_id]);
+        for (k, port) in ports.iter_mut().enumerate() {
+            port.remember(&format!("openings.{k}"), memory);
         }
     }
 

@@ -1,11 +1,12 @@
 //! What is imposed at an opening, and what is seen there.
 
 use crate::error::BoundaryError;
-use crate::outlet::{CoupledState, Outlet, OutletState, Windkessel};
+use crate::outlet::{Outlet, OutletState, Windkessel};
 use crate::profile::{Amplitudes, Inlet, Profile};
 use crate::waveform::Signal;
 use serde::{Deserialize, Serialize};
 use vaso_geometry::Opening;
+use vaso_particles::Memory;
 
 /// What is imposed at an opening.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,6 +103,19 @@ pub struct Port {
 }
 
 impl Port {
+    /// Shows what it carries from step to step, under `name`.
+    pub(crate) fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        // What passed is that of one step, and the factors of the inlet are found anew in each.
+        let Self { opening: _, condition: _, counters, backflow_damping: _, passed: _, outlet, inlet: _ } =
+            self;
+        let Counters { injected, deleted, strays, outflow_volume, damped_energy } = counters;
+        memory.counts(&format!("{name}.particles"), &mut [injected, deleted, strays]);
+        memory.fields(&format!("{name}.sums"), &mut [outflow_volume, damped_energy]);
+        if let Some(outlet) = outlet {
+            outlet.remember(&format!("{name}.outlet"), memory);
+        }
+    }
+
     /// How much of each shape of its profile flows in at `t` \[s\]; nothing where it imposes no velocity.
     pub(crate) fn amplitudes(&self, t: f64) -> Amplitudes {
         match (&self.condition, &self.inlet) {
@@ -120,15 +134,6 @@ pub(crate) struct Passed {
     pub volume: f64,
     /// Kinetic energy out of the vessel \[J\].
     pub kinetic_energy: f64,
-}
-
-/// What an opening carries from step to step, to be kept in a checkpoint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct PortState {
-    /// What went through.
-    pub counters: Counters,
-    /// Where the outlet model stands, if there is one.
-    pub outlet: Option<CoupledState>,
 }
 
 /// Mean state of an opening.

@@ -3,7 +3,7 @@
 use crate::wall::{CouplingError, MovingWall};
 use glam::DVec3;
 use vaso_fluid::{Fluid, Real};
-use vaso_particles::{WallLoad, WallView};
+use vaso_particles::{Memory, WallLoad, WallView};
 
 /// A wall that moves, with the forces of the fluid on it.
 ///
@@ -92,6 +92,26 @@ impl<W: MovingWall> Coupling<W> {
     /// Shows the fluid the velocity of the wall at the end of an acoustic step `dt` \[s\].
     pub fn show_velocity<R: Real>(&self, fluid: &mut Fluid<R>, dt: f64) {
         fluid.set_wall_velocity(self.wall.view().velocity, &self.acceleration, dt);
+    }
+
+    /// Shows all that lies between wall and fluid from one advective step to the next, the wall itself included. What has been read takes
+    /// effect with [`MovingWall::resume`] of the wall.
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        // Forces are taken anew before they act, and the velocity before a step is noted in each.
+        let Self {
+            wall,
+            substeps,
+            steps,
+            work,
+            pressure_force: _,
+            viscous_force: _,
+            acceleration,
+            before: _,
+        } = self;
+        wall.remember(memory);
+        memory.counts("coupling.steps", &mut [substeps, steps]);
+        memory.fields("coupling.work_j", &mut [work]);
+        memory.fixed_vectors("coupling.acceleration", acceleration);
     }
 
     /// Forces of the fluid on the particles of the wall \[N\] in the last step: by pressure, and by viscosity.

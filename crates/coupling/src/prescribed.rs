@@ -3,7 +3,7 @@
 use crate::wall::{CouplingError, MovingWall};
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_particles::{WallLoad, WallView};
+use vaso_particles::{Memory, WallLoad, WallView};
 
 /// Wall that follows a motion: position \[m\] and velocity \[m/s\] of the point that is at `x` in the beginning, at time `t` \[s\].
 pub struct Prescribed<F> {
@@ -75,5 +75,26 @@ impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> MovingWall for Prescribed<F> {
         let moved = self.position.iter().zip(&before).map(|(x, old)| *x - *old);
         self.work += self.force.iter().zip(moved).map(|(force, u)| force.dot(u)).sum::<f64>();
         Ok(1)
+    }
+
+    fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self {
+            origin: _,
+            position: _,
+            velocity: _,
+            depth: _,
+            volume: _,
+            motion: _,
+            time,
+            work,
+            force: _,
+        } = self;
+        memory.fields("wall.time_s", &mut [time]);
+        memory.fields("wall.work_j", &mut [work]);
+    }
+
+    fn resume(&mut self) -> Result<(), CouplingError> {
+        self.follow();
+        Ok(())
     }
 }

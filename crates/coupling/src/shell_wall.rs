@@ -1,10 +1,10 @@
 //! A shell as a wall of the fluid: its ghost columns follow positions and directors, and their forces go to its particles.
 
 use crate::columns::{Foot, GhostColumns};
-use crate::wall::{CouplingError, MovingWall};
+use crate::wall::{CouplingError, MovingWall, NAME};
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_particles::{Columns, Visitor, WallLoad, WallView};
+use vaso_particles::{Memory, WallLoad, WallView};
 use vaso_shell::{Real, Shell, ShellError};
 
 /// Shell with the ghost columns that the fluid sees of it.
@@ -42,6 +42,12 @@ impl<R: Real> ShellWall<R> {
             strain_rate: vec![0.0; n],
             shell,
         })
+    }
+
+    /// Moves the columns to where the shell is.
+    fn follow(&mut self) {
+        let (shell, rate) = (&self.shell, &self.strain_rate);
+        self.columns.follow(|i| foot(shell, i, rate[i]));
     }
 
     /// The ghost columns.
@@ -106,15 +112,20 @@ impl<R: Real> MovingWall for ShellWall<R> {
     fn advance(&mut self, dt: f64) -> Result<usize, CouplingError> {
         let substeps = self.shell.advance(dt)?;
         self.shell.area_strain_rates(dt, &mut self.strain_rate);
-        let (shell, rate) = (&self.shell, &self.strain_rate);
-        self.columns.follow(|i| foot(shell, i, rate[i]));
+        self.follow();
         Ok(substeps)
     }
-}
 
-/// What the shell has to remember; its columns follow from it.
-impl<R: Real> Columns for ShellWall<R> {
-    fn visit(&mut self, visitor: &mut dyn Visitor) {
-        self.shell.visit(visitor);
+    fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self { shell, columns: _, pressure_force: _, viscous_force: _, spread: _, strain_rate } = self;
+        shell.remember(NAME, memory);
+        // Taken over the step that has passed, whose length is not known any more.
+        memory.fixed_numbers("wall.strain_rate", strain_rate);
+    }
+
+    fn resume(&mut self) -> Result<(), CouplingError> {
+        self.shell.resume()?;
+        self.follow();
+        Ok(())
     }
 }

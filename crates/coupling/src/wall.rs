@@ -1,6 +1,6 @@
 //! What a wall that moves has to be able to do, and the solid that can.
 
-use vaso_particles::{WallLoad, WallView};
+use vaso_particles::{Memory, WallLoad, WallView};
 use vaso_shell::ShellError;
 use vaso_solid::{Real, Solid, SolidError};
 
@@ -32,7 +32,19 @@ pub trait MovingWall {
     /// # Errors
     /// When the wall breaks down.
     fn advance(&mut self, dt: f64) -> Result<usize, CouplingError>;
+
+    /// Shows all that the wall carries from step to step.
+    fn remember(&mut self, memory: &mut dyn Memory);
+
+    /// Goes on from what [`Self::remember`] has read: to the same bits.
+    ///
+    /// # Errors
+    /// When what has been read is no state of the wall.
+    fn resume(&mut self) -> Result<(), CouplingError>;
 }
+
+/// What the state of a wall goes by.
+pub(crate) const NAME: &str = "wall";
 
 impl<R: Real> MovingWall for Solid<R> {
     fn view(&self) -> WallView<'_> {
@@ -45,5 +57,13 @@ impl<R: Real> MovingWall for Solid<R> {
 
     fn advance(&mut self, dt: f64) -> Result<usize, CouplingError> {
         Ok(Solid::advance(self, dt)?)
+    }
+
+    fn remember(&mut self, memory: &mut dyn Memory) {
+        Solid::remember(self, NAME, memory);
+    }
+
+    fn resume(&mut self) -> Result<(), CouplingError> {
+        Ok(Solid::resume(self)?)
     }
 }

@@ -10,6 +10,8 @@ use vaso_scene::Scene;
 pub struct Case {
     /// What the file says.
     pub scene: Scene,
+    /// The `--set` overrides it was read with.
+    pub overrides: Vec<(String, String)>,
     /// The surface, repaired, with its openings.
     pub vessel: Vessel,
     /// For each opening of the vessel, the opening of the scene it is.
@@ -31,7 +33,7 @@ impl Case {
         let vessel = load_vessel(&scene.geometry.surface, unit(&scene)?)?;
         let scene_opening = match_openings(&scene, &vessel)?;
         let cache = Some(scene.directory.join(".vaso-cache"));
-        Ok(Self { scene, vessel, scene_opening, cache })
+        Ok(Self { scene, overrides: overrides.to_vec(), vessel, scene_opening, cache })
     }
 
     /// A bare surface with all that is to be said about its particles in `settings`, as for `--set`.
@@ -42,7 +44,7 @@ impl Case {
         let scene = Scene::of_surface(file, settings)?;
         let vessel = load_vessel(file, unit(&scene)?)?;
         let scene_opening = vec![None; vessel.openings.len()];
-        Ok(Self { scene, vessel, scene_opening, cache: None })
+        Ok(Self { scene, overrides: settings.to_vec(), vessel, scene_opening, cache: None })
     }
 
     /// Name of opening `k` of the vessel: that of the case, or its rank by area.

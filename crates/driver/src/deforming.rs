@@ -7,11 +7,10 @@ use crate::world::WallParticles;
 use std::path::PathBuf;
 use vaso_coupling::{Coupling, MovingWall};
 use vaso_io::Summary;
-use vaso_particles::Columns;
 use vaso_scene::Field;
 
 /// A wall that deforms, as it is built, kept and told of. A flow is made for one kind of it and knows no other.
-pub trait Deforming: MovingWall + Columns + Sized {
+pub trait Deforming: MovingWall + Sized {
     /// The open `wall.vtkhdf`.
     type File;
 
@@ -24,11 +23,11 @@ pub trait Deforming: MovingWall + Columns + Sized {
     /// When the particles do not make such a wall.
     fn build(case: &Case, plan: &Plan, particles: &WallParticles) -> Result<Option<Self>, DriverError>;
 
-    /// Starts its series at `path`.
+    /// Starts its series at `path`, or goes on with the frames up to the time `kept` \[s\].
     ///
     /// # Errors
-    /// When it cannot be declared.
-    fn create(&self, path: PathBuf, case: &Case) -> Result<Self::File, DriverError>;
+    /// When it cannot be declared, or what is there is not such a series.
+    fn create(&self, path: PathBuf, case: &Case, kept: Option<f64>) -> Result<Self::File, DriverError>;
 
     /// Appends where it stands at `time` \[s\].
     ///

@@ -47,7 +47,10 @@ pub enum DriverError {
     #[error(transparent)]
     Diverged(#[from] crate::flow::Diverged),
     /// The user stopped the run.
-    #[error("interrupted at {time:.6e} s; results up to there and a checkpoint are in {}", out.display())]
+    #[error(
+        "interrupted at {time:.6e} s; results up to there and a checkpoint are in {0}: go on with `vaso resume {0}`",
+        out.display()
+    )]
     Interrupted {
         /// Simulated time \[s\].
         time: f64,

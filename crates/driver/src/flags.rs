@@ -37,6 +37,20 @@ pub(crate) enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Go on with an interrupted or killed run from its last checkpoint, to the same bits as an unbroken one.
+    Resume {
+        /// Output folder of the run.
+        out: PathBuf,
+        /// Worker threads; default: one a core.
+        #[arg(long)]
+        threads: Option<usize>,
+        /// Say nothing but errors.
+        #[arg(long)]
+        quiet: bool,
+        /// Machine-readable result on standard output.
+        #[arg(long)]
+        json: bool,
+    },
     /// Windkessel parameters from cuff pressures, ready to paste into the case.
     Tune(TuneFlags),
     /// Make the one-file report of an output folder again.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use vaso_boundary::{Openings, Reading};
 use vaso_coupling::{Coupling, CouplingError, MovingWall};
 use vaso_fluid::{Fluid, Real};
-use vaso_particles::visit;
+use vaso_particles::{Memory, visit};
 use vaso_solid::Solid;
 
 /// A run that cannot go on.
@@ -134,6 +134,43 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
     pub fn with_wall(mut self, wall: W) -> Self {
         self.wall = Some(Coupling::new(wall, &mut self.fluid));
         self
+    }
+
+    /// Shows all that the next step depends on, and what was summed so far. What has been read takes effect with [`Self::resume`].
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self {
+            fluid,
+            wall,
+            openings,
+            time,
+            advective_steps,
+            acoustic_steps,
+            particle_substeps,
+            watch,
+            ledger,
+            allow_mach: _,
+            // Read anew in every step.
+            readings: _,
+        } = self;
+        fluid.remember(memory);
+        openings.remember(memory);
+        if let Some(wall) = wall {
+            wall.remember(memory);
+        }
+        memory.fields("time_s", &mut [time]);
+        memory.counts("steps", &mut [advective_steps, acoustic_steps, particle_substeps]);
+        let Watch { max_density_error, max_mach, escaped, returned, non_finite } = watch;
+        memory.fields("watch.largest", &mut [max_density_error, max_mach]);
+        memory.counts("watch.counts", &mut [escaped, returned, non_finite]);
+        ledger.remember(memory);
+    }
+
+    /// Goes on from what [`Self::remember`] has read.
+    ///
+    /// # Errors
+    /// When what has been read is no state of the wall.
+    pub fn resume(&mut self) -> Result<(), CouplingError> {
+        self.wall.as_mut().map_or(Ok(()), |wall| wall.wall.resume())
     }
 
     /// Takes one advective step, no further than to `until` \[s\].

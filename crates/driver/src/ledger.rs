@@ -1,6 +1,7 @@
 //! What each effect cost: time, calls and bytes.
 
 use std::time::{Duration, Instant};
+use vaso_particles::Memory;
 
 /// Parts of a run that are timed on their own; effects are made of one or several of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -97,6 +98,15 @@ impl Ledger {
     /// Books time to `stage`.
     pub fn add(&mut self, stage: Stage, spent: Duration) {
         self.spent[stage as usize] += spent;
+    }
+
+    /// Shows the time of all stages, so that a run that goes on adds to it.
+    pub(crate) fn remember(&mut self, memory: &mut dyn Memory) {
+        let mut seconds: Vec<f64> = self.spent.iter().map(Duration::as_secs_f64).collect();
+        memory.fixed_numbers("ledger.seconds", &mut seconds);
+        for (spent, seconds) in self.spent.iter_mut().zip(seconds) {
+            *spent = Duration::try_from_secs_f64(seconds).unwrap_or_default();
+        }
     }
 
     /// Time booked to a stage \[s\].

@@ -20,6 +20,7 @@ pub mod print;
 pub mod progress;
 pub mod quality;
 pub mod results;
+pub mod resume;
 pub mod run;
 pub mod shell;
 mod start;

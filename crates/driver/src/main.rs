@@ -9,8 +9,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vaso_driver::run::Talk;
-use vaso_driver::{Case, DriverError, Plan, check, compare, particles, run, tune};
+use vaso_driver::{Case, DriverError, Plan, check, compare, particles, resume, run, tune};
 use vaso_geometry::LengthUnit;
+use vaso_io::Summary;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -26,7 +27,7 @@ fn main() -> ExitCode {
 fn execute(command: Command) -> Result<(), DriverError> {
     match command {
         Command::Check { common, unit } => {
-            set_threads(&common)?;
+            set_threads(common.threads)?;
             let checked = if is_surface(&common.case) {
                 let unit = unit.map(|u| u.parse::<LengthUnit>()).transpose();
                 check::surface(&common.case, unit.map_err(|e| DriverError::input(format!("--unit: {e}")))?)?
@@ -44,26 +45,24 @@ fn execute(command: Command) -> Result<(), DriverError> {
         }
         Command::Particles(flags) => make_particles(&flags),
         Command::Run { common, force } => {
-            set_threads(&common)?;
+            set_threads(common.threads)?;
             let case = Case::load(&common.case, &common.set)?;
             let plan = Plan::new(&case)?;
             let out = out_folder(&common, &case);
             let stop = stop_on_interrupt();
             let summary = run::run(&case, &plan, &out, force, &stop, &talk(&common))?;
-            talk(&common).say(&format!(
-                "done     {:.4} s of flow in {:.1} s · {:.2} M particle steps/s · report {}",
-                summary.time_s,
-                summary.wall_clock_s,
-                1e-6 * summary.particle_substeps_per_s,
-                out.join("report.html").display()
-            ));
-            if common.json {
-                println!("{}", summary.to_json());
-            }
+            tell(&summary, &out, &talk(&common), common.json);
+            Ok(())
+        }
+        Command::Resume { out, threads, quiet, json } => {
+            set_threads(threads)?;
+            let talk = Talk { quiet };
+            let summary = resume::resume(&out, &stop_on_interrupt(), &talk)?;
+            tell(&summary, &out, &talk, json);
             Ok(())
         }
         Command::Tune(flags) => {
-            set_threads(&flags.common)?;
+            set_threads(flags.common.threads)?;
             let case = Case::load(&flags.common.case, &flags.common.set)?;
             print!("{}", tune::tune(&case, &flags.request())?);
             Ok(())
@@ -76,9 +75,23 @@ fn execute(command: Command) -> Result<(), DriverError> {
     }
 }
 
+/// Says what a run came to.
+fn tell(summary: &Summary, out: &Path, talk: &Talk, json: bool) {
+    talk.say(&format!(
+        "done     {:.4} s of flow in {:.1} s · {:.2} M particle steps/s · report {}",
+        summary.time_s,
+        summary.wall_clock_s,
+        1e-6 * summary.particle_substeps_per_s,
+        out.join("report.html").display()
+    ));
+    if json {
+        println!("{}", summary.to_json());
+    }
+}
+
 fn make_particles(flags: &ParticlesFlags) -> Result<(), DriverError> {
     let common = &flags.common;
-    set_threads(common)?;
+    set_threads(common.threads)?;
     let settings = flags.settings();
     let case = if is_surface(&common.case) {
         if !settings.iter().any(|(key, _)| key == "particles.spacing") {
@@ -119,8 +132,8 @@ fn out_folder(common: &Common, case: &Case) -> PathBuf {
     common.out.clone().unwrap_or_else(|| case.scene.directory.join("out"))
 }
 
-fn set_threads(common: &Common) -> Result<(), DriverError> {
-    let Some(n) = common.threads else { return Ok(()) };
+fn set_threads(threads: Option<usize>) -> Result<(), DriverError> {
+    let Some(n) = threads else { return Ok(()) };
     if n == 0 {
         return Err(DriverError::input("--threads: 0 is no number of threads; give 1 or more"));
     }

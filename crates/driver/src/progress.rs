@@ -11,6 +11,8 @@ pub struct Progress {
     lines: bool,
     started: Instant,
     last_line: Instant,
+    /// Share of the run and particle steps that had been done when the clock started.
+    before: (f64, u64),
 }
 
 /// Time between plain lines.
@@ -31,7 +33,13 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{bar:32} {percent:>3} % {msg}") {
             bar.set_style(style);
         }
-        Self { bar, lines: !terminal && !quiet, started: Instant::now(), last_line: Instant::now() }
+        Self {
+            bar,
+            lines: !terminal && !quiet,
+            started: Instant::now(),
+            last_line: Instant::now(),
+            before: (0.0, 0),
+        }
     }
 
     /// Tells a step of the relaxation of a body.
@@ -41,20 +49,27 @@ impl Progress {
         self.line(&text);
     }
 
-    /// Tells that the particles are there; the clock of the flow starts.
+    /// Tells that the particles are there.
     pub fn relaxed(&mut self) {
-        self.started = Instant::now();
         self.bar.set_message(String::new());
+    }
+
+    /// Starts the clock of the flow, of which a share and so many particle steps may have been done before.
+    pub fn start(&mut self, share: f64, particle_substeps: u64) {
+        self.started = Instant::now();
+        self.before = (share, particle_substeps);
     }
 
     /// Tells the simulated time reached.
     pub fn flow(&mut self, time: f64, end: f64, particle_substeps: u64) {
         let share = time / end;
         let elapsed = self.started.elapsed().as_secs_f64();
-        let left = if share > 0.0 { elapsed * (1.0 - share) / share } else { f64::INFINITY };
+        let (share_before, substeps_before) = self.before;
+        let done = share - share_before;
+        let left = if done > 0.0 { elapsed * (1.0 - share) / done } else { f64::INFINITY };
         let text = format!(
             "{time:.4} of {end} s · {:.1} M particle steps/s · {} left",
-            1e-6 * particle_substeps as f64 / elapsed.max(1e-9),
+            1e-6 * (particle_substeps - substeps_before) as f64 / elapsed.max(1e-9),
             duration(left)
         );
         self.bar.set_position((share * PARTS) as u64);

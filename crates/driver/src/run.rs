@@ -1,14 +1,16 @@
 //! `vaso run`: from the case to the report.
 
 use crate::case::Case;
+use crate::checkpoint::{self, Checkpoint, Due, Ending, Origin, Surroundings};
 use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::flow::{Diverged, Flow};
+use crate::ledger::Stage;
 use crate::plan::Plan;
+use crate::print;
 use crate::progress::Progress;
 use crate::results::{Results, append_frame};
 use crate::world::{Bodies, build_flow_in};
-use crate::{checkpoint, print};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -33,6 +35,18 @@ impl Talk {
     }
 }
 
+/// Where a run starts.
+#[derive(Clone, Copy)]
+pub enum Start<'a> {
+    /// At rest; `force` writes over a finished folder.
+    Anew {
+        /// Whether it does.
+        force: bool,
+    },
+    /// Where a checkpoint was written.
+    From(&'a Checkpoint),
+}
+
 /// Runs a case into `out`. `stop` is looked at after every step.
 ///
 /// # Errors
@@ -50,6 +64,18 @@ pub fn run(
     if !force && Summary::read(&out.join("summary.json")).is_ok_and(|s| s.status == Status::Completed) {
         return Err(IoError::Finished { path: out.to_owned() }.into());
     }
+    go(case, plan, out, Start::Anew { force }, stop, talk)
+}
+
+/// Runs a case from its start or from a checkpoint, as [`run`] and [`resume`](crate::resume::resume) do.
+pub(crate) fn go(
+    case: &Case,
+    plan: &Plan,
+    out: &Path,
+    start: Start,
+    stop: &AtomicBool,
+    talk: &Talk,
+) -> Result<Summary, DriverError> {
     talk.say(&print::audit(&case.vessel, &case.scene.geometry.surface));
     talk.say(&print::plan(case, plan));
     let started = Instant::now();
@@ -68,34 +94,128 @@ pub fn run(
         talk.say(&format!("warning  {notice}"));
         plan.warnings.push(notice.clone());
     }
-    let plan = &plan;
-    let out = OutputDir::prepare(out, force)?;
-    let is_shell = matches!(case.scene.wall, Wall::Shell(_));
-    let run = match (plan.precision, is_shell) {
+    let run = match (plan.precision, matches!(case.scene.wall, Wall::Shell(_))) {
         (Precision::Mixed, false) => run_kind::<f32, Solid<f32>>,
         (Precision::Double, false) => run_kind::<f64, Solid<f64>>,
         (Precision::Mixed, true) => run_kind::<f32, ShellWall<f32>>,
         (Precision::Double, true) => run_kind::<f64, ShellWall<f64>>,
     };
-    run(case, plan, bodies, &out, stop, talk, progress, started)
+    run(Job { case, plan: &plan, out, start, stop, talk, started }, bodies, progress)
 }
 
-#[expect(clippy::too_many_arguments, reason = "the one place where all parts of a run meet")]
-fn run_kind<R: Real, W: Deforming>(
-    case: &Case,
-    plan: &Plan,
-    bodies: Bodies,
-    out: &OutputDir,
-    stop: &AtomicBool,
-    talk: &Talk,
-    mut progress: Progress,
+/// All that belongs to a run but its particles.
+struct Job<'a> {
+    case: &'a Case,
+    plan: &'a Plan,
+    out: &'a Path,
+    start: Start<'a>,
+    stop: &'a AtomicBool,
+    talk: &'a Talk,
     started: Instant,
+}
+
+impl Job<'_> {
+    /// Wall time spent on the run so far \[s\].
+    fn wall_clock(&self) -> f64 {
+        let before = match self.start {
+            Start::Anew { .. } => 0.0,
+            Start::From(checkpoint) => checkpoint.surroundings.wall_clock,
+        };
+        before + self.started.elapsed().as_secs_f64()
+    }
+}
+
+/// A run on its way.
+struct Running<R, W: Deforming> {
+    flow: Flow<R, W>,
+    results: Results<W::File>,
+    origin: Origin,
+}
+
+impl<R: Real, W: Deforming> Running<R, W> {
+    /// Builds the flow, takes the folder and opens its files. Where that fails nothing has been changed but what a checkpoint brings
+    /// back.
+    fn new(job: &Job, bodies: Bodies) -> Result<Self, DriverError> {
+        let &Job { case, plan, out, start, .. } = job;
+        let wall = bodies.wall.clone();
+        let mut flow = build_flow_in::<R, W>(case, plan, bodies)?;
+        match start {
+            Start::Anew { force } => {
+                let folder = OutputDir::prepare(out, force)?;
+                let results = Results::create(&folder, case, plan, &flow, None)?;
+                let origin = Origin::new(case, plan, out)?.in_wall(&wall);
+                let mut running = Self { flow, results, origin };
+                // From here on a kill at any moment leaves something to go on from.
+                running.write_checkpoint(job, None)?;
+                Ok(running)
+            }
+            Start::From(checkpoint) => {
+                let origin = Origin::new(case, plan, out)?.in_wall(&wall);
+                checkpoint.origin.check_wall(&origin, case)?;
+                checkpoint.restore(&mut flow)?;
+                let folder = OutputDir::go_on(out).map_err(|error| match error.is_disk_full() {
+                    true => error.into(),
+                    false => DriverError::input(error.to_string()),
+                })?;
+                let mut results = Results::create(&folder, case, plan, &flow, Some(&checkpoint.standing))?;
+                checkpoint.restore_results(&mut results)?;
+                Ok(Self { flow, results, origin })
+            }
+        }
+    }
+
+    fn write_checkpoint(&mut self, job: &Job, ending: Ending) -> Result<(), DriverError> {
+        let start = Instant::now();
+        let surroundings = Surroundings { wall_clock: job.wall_clock(), ending };
+        checkpoint::write(&self.origin, &mut self.flow, &mut self.results, &surroundings)?;
+        self.flow.ledger.add(Stage::Output, start.elapsed());
+        Ok(())
+    }
+
+    /// Goes on to the end, or to where the results say that it has settled; tells why then. A checkpoint is left there, too, so that a
+    /// kill while the last files are written loses nothing.
+    fn advance(&mut self, job: &Job, progress: &mut Progress) -> Result<Ending, DriverError> {
+        let &Job { case, plan, .. } = job;
+        if let Start::From(Checkpoint { surroundings: Surroundings { ending: Some(ending), .. }, .. }) =
+            job.start
+        {
+            return Ok(Some(ending.clone()));
+        }
+        let mut due = Due::new(case.scene.output.checkpoint_every, self.flow.time);
+        progress.start(self.flow.time / plan.end_time, self.flow.particle_substeps);
+        let mut ending = None;
+        while self.flow.time < plan.end_time && ending.is_none() {
+            if due.is_due(self.flow.time) {
+                self.write_checkpoint(job, None)?;
+            }
+            if let Err(diverged) = self.flow.step(plan.end_time) {
+                return Err(post_mortem(&self.flow, &self.results, case, diverged));
+            }
+            ending = self.results.after_step(&mut self.flow, case, plan)?;
+            progress.flow(self.flow.time, plan.end_time, self.flow.particle_substeps);
+            if ending.is_none() && job.stop.load(Ordering::Relaxed) {
+                self.write_checkpoint(job, None)?;
+                self.results.write_frame(&self.flow, case)?;
+                let out = self.results.folder().to_owned();
+                return Err(DriverError::Interrupted { time: self.flow.time, out });
+            }
+        }
+        self.write_checkpoint(job, ending.clone())?;
+        Ok(ending)
+    }
+}
+
+fn run_kind<R: Real, W: Deforming>(
+    job: Job,
+    bodies: Bodies,
+    mut progress: Progress,
 ) -> Result<Summary, DriverError> {
     let counts = bodies.counts();
-    let mut flow = build_flow_in::<R, W>(case, plan, bodies)?;
-    let mut results = Results::create(out, case, plan, &flow)?;
-    let ended = advance(&mut flow, &mut results, case, plan, stop, &mut progress);
+    let &Job { case, plan, talk, .. } = &job;
+    let mut running = Running::<R, W>::new(&job, bodies)?;
+    let ended = running.advance(&job, &mut progress);
     progress.finish();
+    let Running { mut flow, mut results, .. } = running;
     let (ended, settled) = match ended {
         Ok(settled) => (results.finish(&flow, case), settled),
         Err(error) => (Err(error), None),
@@ -103,7 +223,7 @@ fn run_kind<R: Real, W: Deforming>(
     if let Some((_, words)) = &settled {
         talk.say(&format!("ended early at {:.4} s: {words}", flow.time));
     }
-    let mut summary = results.summary(&mut flow, case, plan, counts, started.elapsed().as_secs_f64());
+    let mut summary = results.summary(&mut flow, case, plan, counts, job.wall_clock());
     summary.end_reason = ended.is_ok().then(|| settled.as_ref().map_or(EndReason::EndTime, |s| s.0));
     summary.message = settled.map(|s| s.1);
     if ended.is_ok() {
@@ -116,38 +236,14 @@ fn run_kind<R: Real, W: Deforming>(
         };
         summary.message = Some(error.to_string());
     }
+    let folder = results.folder().to_owned();
+    // Takes the hidden copies of the series away, before the summary says that the run is finished.
+    drop(results);
     // After a full disk the summary may not find room either; the first error is the one to tell.
-    let written = summary.write(&out.file("summary.json")).map_err(DriverError::from);
-    let reported = vaso_report::write_report(out.path()).map_err(DriverError::from);
+    let written = summary.write(&folder.join("summary.json")).map_err(DriverError::from);
+    let reported = vaso_report::write_report(&folder).map_err(DriverError::from);
     ended.and(written).and(reported)?;
     Ok(summary)
-}
-
-/// Goes on to the end, or to where the results say that it has settled; tells why then.
-fn advance<R: Real, W: Deforming>(
-    flow: &mut Flow<R, W>,
-    results: &mut Results<W::File>,
-    case: &Case,
-    plan: &Plan,
-    stop: &AtomicBool,
-    progress: &mut Progress,
-) -> Result<Option<(EndReason, String)>, DriverError> {
-    while flow.time < plan.end_time {
-        let stepped = flow.step(plan.end_time);
-        if let Err(diverged) = stepped {
-            return Err(post_mortem(flow, results, case, diverged));
-        }
-        if let Some(reason) = results.after_step(flow, case, plan)? {
-            return Ok(Some(reason));
-        }
-        progress.flow(flow.time, plan.end_time, flow.particle_substeps);
-        if stop.load(Ordering::Relaxed) {
-            results.write_frame(flow, case)?;
-            checkpoint::write(results.folder(), flow)?;
-            return Err(DriverError::Interrupted { time: flow.time, out: results.folder().to_owned() });
-        }
-    }
-    Ok(None)
 }
 
 /// Leaves the broken state beside the results; the series keeps only sound frames.

@@ -12,7 +12,7 @@ use vaso_boundary::Openings;
 use vaso_fluid::{Fluid, FluidState, Real};
 use vaso_generation::{Body, ShellBody};
 use vaso_geometry::{DistanceGrid, SignedDistance};
-use vaso_io::ParticleCounts;
+use vaso_io::{KeyBuilder, ParticleCounts};
 use vaso_particles::{WallDistance, WallView};
 use vaso_scene::Wall;
 
@@ -37,6 +37,25 @@ impl WallParticles {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// Digest of all that a flow sees of them.
+    pub(crate) fn digest(&self) -> String {
+        let vectors = |key, vectors: &[DVec3]| {
+            vectors.iter().fold(key, |key: KeyBuilder, v| key.numbers(&v.to_array()))
+        };
+        let key = match self {
+            Self::Layers(Body { position, volume, depth, normal, quality: _ }) => {
+                let key = vectors(KeyBuilder::new("layers"), position).numbers(volume).numbers(depth);
+                vectors(key, normal)
+            }
+            Self::Shell(body) => {
+                let key = vectors(KeyBuilder::new("shell"), &body.position);
+                let key = vectors(key, &body.normal).numbers(&body.area).numbers(&body.thickness);
+                key.numbers(body.curvature.as_flattened())
+            }
+        };
+        key.finish().to_string()
     }
 
     /// The layers, where it has several.

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use vaso_kernels::{
     CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland,
 };
-use vaso_particles::{WallDistance, WallView, visit};
+use vaso_particles::{Memory, WallDistance, WallView, visit};
 
 /// What a particle keeps for all acoustic steps of one advective step.
 #[derive(Clone, Copy, Debug)]
@@ -181,15 +181,36 @@ impl<R: Real> Fluid<R> {
             + 4 * (self.zone_of.capacity() + self.order.capacity())
     }
 
-    /// Volume \[m^3\] of a vessel at rest that its mass is compared with, from the first step on: all that a checkpoint needs besides the
-    /// columns of [`Self::state`].
-    pub fn capacity(&self) -> Option<f64> {
-        self.capacity
-    }
-
-    /// Goes on with what [`Self::capacity`] gave.
-    pub fn set_capacity(&mut self, capacity: Option<f64>) {
-        self.capacity = capacity;
+    /// Shows all that the fluid carries from one advective step to the next: everything else is found anew in each.
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self {
+            state,
+            capacity,
+            numbers: _,
+            kernel: _,
+            isa: _,
+            frame: _,
+            grid: _,
+            order: _,
+            set: _,
+            rows: _,
+            wall: _,
+            moving: _,
+            current: _,
+            next: _,
+            second: _,
+            offsets: _,
+            frozen: _,
+            slope: _,
+            zone_of: _,
+            lattice_sum: _,
+            surplus: _,
+            elapsed: _,
+            wall_distance: _,
+            reach: _,
+        } = self;
+        memory.columns("fluid", state);
+        memory.optional("fluid.capacity_m3", capacity);
     }
 
     /// Puts the particles in cell order.

@@ -54,8 +54,7 @@ impl OutputDir {
                 std::fs::remove_file(&file).map_err(|source| IoError::system(&file, "remove", source))?;
             }
         }
-        let version = env!("CARGO_PKG_VERSION").to_owned();
-        Summary { vaso_version: version, status: Status::Running, ..Summary::default() }.write(&summary)?;
+        output.claim()?;
         Ok(output)
     }
 
@@ -75,7 +74,24 @@ impl OutputDir {
         }
     }
 
-    /// Takes the folder as it is, to add to it (`vaso particles`, `resume`, `report`); creates it if need be.
+    /// Takes the folder of a run that goes on, as it is: writes a `summary.json` with the status `running`.
+    ///
+    /// # Errors
+    /// [`IoError::System`] when the folder cannot be written; nothing has been changed then.
+    pub fn go_on(path: impl Into<PathBuf>) -> Result<Self, IoError> {
+        let output = Self::open(path)?;
+        output.claim()?;
+        Ok(output)
+    }
+
+    /// Says that a run is going on here.
+    fn claim(&self) -> Result<(), IoError> {
+        let version = env!("CARGO_PKG_VERSION").to_owned();
+        Summary { vaso_version: version, status: Status::Running, ..Summary::default() }
+            .write(&self.file("summary.json"))
+    }
+
+    /// Takes the folder as it is, to add to it (`vaso particles`, `report`); creates it if need be.
     ///
     /// # Errors
     /// [`IoError::System`] when it cannot be made or is not a folder.

@@ -15,6 +15,7 @@ pub struct Table {
     path: PathBuf,
     file: File,
     columns: usize,
+    rows: u64,
 }
 
 /// A table read back.
@@ -42,7 +43,7 @@ impl Table {
     pub fn create(path: impl Into<PathBuf>, header: &[String]) -> Result<Self, IoError> {
         let path = path.into();
         atomic::write(&path, &line(header, &path)?)?;
-        Self::open_end(path, header.len())
+        Self::open_end(path, header.len(), 0)
     }
 
     /// Goes on with a table: rows whose first column (the time) is later than `time` are dropped. A missing
@@ -65,19 +66,34 @@ impl Table {
             return Err(IoError::Mismatch { path, what });
         }
         let mut text = line(header, &path)?;
+        let mut rows = 0;
         for row in data.rows.iter().take_while(|row| row[0] <= time) {
             text.extend(row_line(row, &path)?);
+            rows += 1;
         }
         atomic::write(&path, &text)?;
-        Self::open_end(path, header.len())
+        Self::open_end(path, header.len(), rows)
     }
 
-    fn open_end(path: PathBuf, columns: usize) -> Result<Self, IoError> {
+    fn open_end(path: PathBuf, columns: usize, rows: u64) -> Result<Self, IoError> {
         let file = OpenOptions::new()
             .append(true)
             .open(&path)
             .map_err(|source| IoError::system(&path, "append to", source))?;
-        Ok(Self { path, file, columns })
+        Ok(Self { path, file, columns, rows })
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// Forces all rows to disk.
+    ///
+    /// # Errors
+    /// [`IoError::System`] when the disk refuses.
+    pub fn sync(&self) -> Result<(), IoError> {
+        self.file.sync_all().map_err(|source| IoError::system(&self.path, "write", source))
     }
 
     /// Adds a row; when this returns the operating system has it.
@@ -91,7 +107,9 @@ impl Table {
             return Err(IoError::Mismatch { path: self.path.clone(), what });
         }
         let text = row_line(row, &self.path)?;
-        self.file.write_all(&text).map_err(|source| IoError::system(&self.path, "append to", source))
+        self.file.write_all(&text).map_err(|source| IoError::system(&self.path, "append to", source))?;
+        self.rows += 1;
+        Ok(())
     }
 }
 

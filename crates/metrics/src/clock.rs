@@ -1,6 +1,7 @@
 //! Cuts the time between samples at the ends of cycles.
 
 use crate::error::MetricsError;
+use vaso_particles::Memory;
 
 /// Part of a period within which a sample counts as taken at the end of a cycle.
 const ROUNDING: f64 = 1e-9;
@@ -51,9 +52,11 @@ impl CycleClock {
         self.last
     }
 
-    /// Goes on after a checkpoint, with what [`cycle`](Self::cycle) and [`last`](Self::last) were.
-    pub fn resume(&mut self, cycle: u64, last: Option<f64>) {
-        (self.cycle, self.last) = (cycle, last);
+    /// Shows all that changes, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { start: _, period: _, last, cycle } = self;
+        memory.optional(&format!("{name}.last_s"), last);
+        memory.counts(&format!("{name}.cycle"), &mut [cycle]);
     }
 
     /// Parts of the time since the last sample, for one at `time` \[s\]. None for the first sample, for one that is no later

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
+use vaso_io::Archive;
 use vaso_metrics::{PointIndices, ShearCycle, ShearCycles};
-use vaso_particles::{Column, Columns, Visitor};
 
 const PERIOD: f64 = 0.8;
 
@@ -105,40 +106,8 @@ fn points_without_values_get_no_indices() {
     assert!((cycle.mean_tawss(&[1.0, 5.0]).expect("a value") - 1.0).abs() < 1e-12);
 }
 
-/// Values of all columns, or put back into them.
-struct Copy(Vec<f64>, Option<usize>);
-
-impl Visitor for Copy {
-    fn scalar(&mut self, column: &mut Column<f64>) {
-        for x in column.iter_mut() {
-            match &mut self.1 {
-                None => self.0.push(*x),
-                Some(at) => {
-                    *x = self.0[*at];
-                    *at += 1;
-                }
-            }
-        }
-    }
-    fn vector(&mut self, column: &mut Column<DVec3>) {
-        for x in column.iter_mut() {
-            for k in 0..3 {
-                match &mut self.1 {
-                    None => self.0.push(x[k]),
-                    Some(at) => {
-                        x[k] = self.0[*at];
-                        *at += 1;
-                    }
-                }
-            }
-        }
-    }
-    fn integer(&mut self, _: &mut Column<u64>) {}
-    fn label(&mut self, _: &mut Column<i32>) {}
-}
-
 #[test]
-fn columns_and_clock_are_all_of_the_state() {
+fn what_is_shown_is_all_of_the_state() {
     let stress = |k: i32| {
         let phase = f64::from(k) / 17.0;
         [Some(DVec3::new(phase.sin(), (1.7 * phase).cos(), 0.0)), (k % 5 > 0).then_some(DVec3::Y)]
@@ -148,14 +117,19 @@ fn columns_and_clock_are_all_of_the_state() {
     for k in 0..100 {
         whole.add(0.01 * f64::from(k), &stress(k)).expect("two values");
     }
-    let mut saved = Copy(Vec::new(), None);
-    whole.visit(&mut saved);
+    let mut archive = Archive::new("sums", 1);
+    archive.remember(|memory| whole.remember("shear", memory));
     let mut resumed = new();
-    resumed.visit(&mut Copy(saved.0, Some(0)));
-    resumed.clock.resume(whole.clock.cycle(), whole.clock.last());
+    archive.recall(Path::new("sums"), |memory| resumed.remember("shear", memory)).expect("two points");
     for k in 100..200 {
         let time = 0.01 * f64::from(k);
         let (a, b) = (whole.add(time, &stress(k)), resumed.add(time, &stress(k)));
         assert_eq!(a, b, "at sample {k}");
+        if let Ok(Some(mut cycle)) = a {
+            archive.remember(|memory| cycle.remember("cycle", memory));
+            let mut other = ShearCycle::empty(2);
+            archive.recall(Path::new("sums"), |memory| other.remember("cycle", memory)).expect("two points");
+            assert_eq!(other, cycle);
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use glam::{DMat3, DVec3};
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
+use vaso_io::Archive;
 use vaso_metrics::{
     Change, Criterion, EnergyBalance, EnergySample, MetricsError, OpeningCycle, OpeningCycles, OpeningSample,
     Verdict, dissipation, kinetic_power,
@@ -118,14 +120,29 @@ fn the_state_goes_through_a_checkpoint() {
     for k in 0..200 {
         whole.add(at(k).0, &at(k).1).expect("three samples");
     }
-    let (floats, bin) = whole.state();
+    let mut archive = Archive::new("sums", 1);
+    archive.remember(|memory| whole.remember("cycles", memory));
     let mut resumed = OpeningCycles::new(names(), 0.0, 0.9).expect("valid");
-    resumed.restore(&floats, bin).expect("the same openings");
+    archive
+        .recall(Path::new("sums"), |memory| resumed.remember("cycles", memory))
+        .expect("the same openings");
     assert_eq!(resumed, whole);
     for k in 200..300 {
-        assert_eq!(whole.add(at(k).0, &at(k).1), resumed.add(at(k).0, &at(k).1));
+        let (a, b) = (whole.add(at(k).0, &at(k).1), resumed.add(at(k).0, &at(k).1));
+        assert_eq!(a, b);
+        if let Ok(Some(mut cycle)) = a {
+            archive.remember(|memory| cycle.remember("cycle", memory));
+            let mut other = OpeningCycle::empty(&names());
+            archive
+                .recall(Path::new("sums"), |memory| other.remember("cycle", memory))
+                .expect("three openings");
+            assert_eq!(other, cycle);
+        }
     }
-    assert!(matches!(resumed.restore(&floats[1..], bin), Err(MetricsError::Length { .. })));
+    let more = ["in", "left", "right", "side"].map(str::to_owned).to_vec();
+    let mut more = OpeningCycles::new(more, 0.0, 0.9).expect("valid");
+    let error = archive.recall(Path::new("sums"), |memory| more.remember("cycles", memory)).unwrap_err();
+    assert!(error.to_string().contains("`cycles.3.last`"), "{error}");
 }
 
 /// Poiseuille: the pressure drop times the flow is what friction turns into heat.

@@ -234,7 +234,7 @@ pub struct Output {
     pub table_every: f64,
     /// Fields of the particle series, sorted, none twice.
     pub fields: Vec<Field>,
-    /// Interval of checkpoints \[s\]; `None` writes one at the end or on interruption.
+    /// Interval of checkpoints \[s\]; `None` leaves it to the driver. What is computed does not depend on it.
     pub checkpoint_every: Option<f64>,
     /// Pairs of different openings, proximal and distal by name, whose pressure drop and fractional flow reserve over each
     /// cycle are told.

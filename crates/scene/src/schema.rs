@@ -195,6 +195,6 @@ pub(crate) const KEYS: &[Key] = &[
     key("output.every", Quantity(TIME, Range::POSITIVE), Optional("a hundredth of the run"), "Interval of the particle series."),
     key("output.table_every", Quantity(TIME, Range::POSITIVE), Optional("a tenth of `every`"), "Interval of `openings.csv` and `probes.csv`."),
     key("output.fields", Choices(Field::WORDS), Optional("velocity and pressure with blood, displacement and von_mises with a wall that deforms"), "Fields of the series. `tawss`, `osi`, `rrt`, `ecap`, `transverse_wss` and `peak_wss` are of a cycle and need `run.period`."),
-    key("output.checkpoint_every", Quantity(TIME, Range::POSITIVE), Optional("at the end and on interruption"), "Interval of checkpoints."),
+    key("output.checkpoint_every", Quantity(TIME, Range::POSITIVE), Optional("every ten minutes of wall time"), "Interval of checkpoints. One is also written at the start, at the end and on interruption."),
     key("output.fractional_flow_reserve", Pairs, Optional("none"), "Pairs of openings, [\"proximal\", \"distal\"], whose pressure drop and fractional flow reserve over each cycle are told; needs `run.period`."),
 ];

@@ -12,7 +12,7 @@ use crate::state::ShellState;
 use crate::support::{Support, numbered};
 use glam::DVec3;
 use vaso_kernels::{Isa, Real};
-use vaso_particles::{Column, Columns, Visitor, visit};
+use vaso_particles::{Column, Columns, Memory, Visitor, visit};
 
 /// Particles of a shell, in any order; all lists in the same.
 #[derive(Clone, Copy, Debug, Default)]
@@ -190,6 +190,32 @@ impl<R: Real> Shell<R> {
     /// What holds particle `i` of the columns.
     pub fn support(&self, i: usize) -> Support {
         numbered(self.state.support[i], &self.supports)
+    }
+
+    /// Shows all that the shell carries from step to step, under `name`. What has been read takes effect with [`Self::resume`].
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        memory.columns(name, self);
+        let Self {
+            state,
+            loads,
+            ledger,
+            place,
+            numbers: _,
+            forces: _,
+            supports: _,
+            shown: _,
+            ready: _,
+            frequency: _,
+            damping_time: _,
+        } = self;
+        let (seen, needed) = (state.len(), place.len());
+        if seen != needed {
+            memory.refuse(name, format!("it has {seen} particles, the shell {needed}"));
+        }
+        let Ledger { dissipation, load_work } = ledger;
+        memory.fields(&format!("{name}.energies_j"), &mut [dissipation, load_work]);
+        // Empty before the first load.
+        memory.vectors(&format!("{name}.load_n"), &mut loads.fluid);
     }
 
     /// Bytes held.

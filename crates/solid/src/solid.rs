@@ -14,7 +14,7 @@ use crate::updated::UpdatedLagrangian;
 use glam::DVec3;
 use std::marker::PhantomData;
 use vaso_kernels::{Isa, Real, Wendland};
-use vaso_particles::{Columns, Visitor, WallLoad, visit};
+use vaso_particles::{Columns, Memory, Visitor, WallLoad, visit};
 
 /// Particles of a solid, in any order; all lists in the same.
 #[derive(Clone, Copy, Debug, Default)]
@@ -278,6 +278,33 @@ impl<R: Real> Solid<R> {
         self.loads.fluid.extend(both.map(|(p, v)| *p + *v));
         self.loads.update(&self.state, &*self.body);
         Ok(())
+    }
+
+    /// Shows all that the body carries from step to step, under `name`. What has been read takes effect with [`Self::resume`].
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        memory.columns(name, self);
+        // The formulation shows what it carries as columns.
+        let Self {
+            state,
+            loads,
+            ledger,
+            place,
+            material: _,
+            numbers: _,
+            body: _,
+            planes: _,
+            shown: _,
+            ready: _,
+            precision: _,
+        } = self;
+        let (seen, needed) = (state.len(), place.len());
+        if seen != needed {
+            memory.refuse(name, format!("it has {seen} particles, the body {needed}"));
+        }
+        let Ledger { dissipation, load_work } = ledger;
+        memory.fields(&format!("{name}.energies_j"), &mut [dissipation, load_work]);
+        // Empty before the first load.
+        memory.vectors(&format!("{name}.load_n"), &mut loads.fluid);
     }
 
     /// Neighbour pairs, each direction counted.

@@ -2,6 +2,7 @@
 
 use super::{Integration, OutletState, Windkessel};
 use serde::{Deserialize, Serialize};
+use vaso_particles::Memory;
 
 /// How an outlet takes up the flow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,35 +21,19 @@ pub enum Coupling {
     },
 }
 
-/// Where a coupled outlet stands: all that its next step needs to know, to be kept in a checkpoint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct CoupledState {
+/// Where a coupled outlet stands: all that its next step needs to know.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct CoupledState {
     /// The model.
-    pub outlet: OutletState,
+    pub(crate) outlet: OutletState,
     /// Section that the fluid in the buffer fills, averaged over its way through \[m^2\].
-    pub section: f64,
+    pub(crate) section: f64,
     /// Mean pressure in the buffer above the imposed one, as it is without sound \[Pa\].
-    pub offset: f64,
+    pub(crate) offset: f64,
     /// Volume that left in the window so far \[m^3\].
-    pub window_volume: f64,
+    pub(crate) window_volume: f64,
     /// Time since the window began \[s\].
-    pub window_time: f64,
-}
-
-impl CoupledState {
-    /// Its numbers in the order of the fields, for stores that know nothing but numbers.
-    pub fn to_array(&self) -> [f64; 7] {
-        let OutletState { pressure, stored_pressure, flow } = self.outlet;
-        [pressure, stored_pressure, flow, self.section, self.offset, self.window_volume, self.window_time]
-    }
-
-    /// The state of which [`Self::to_array`] gave the numbers.
-    pub fn from_array(
-        [pressure, stored_pressure, flow, section, offset, window_volume, window_time]: [f64; 7],
-    ) -> Self {
-        let outlet = OutletState { pressure, stored_pressure, flow };
-        Self { outlet, section, offset, window_volume, window_time }
-    }
+    pub(crate) window_time: f64,
 }
 
 /// What the buffer of an outlet shows after an acoustic step.
@@ -99,6 +84,17 @@ impl Outlet {
                 ..CoupledState::default()
             },
         }
+    }
+
+    /// Shows what it carries from step to step, under `name`.
+    pub(crate) fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { state, model: _, coupling: _, impedance: _, transit: _, settling: _ } = self;
+        let CoupledState { outlet, section, offset, window_volume, window_time } = state;
+        let OutletState { pressure, stored_pressure, flow } = outlet;
+        memory.fields(
+            name,
+            &mut [pressure, stored_pressure, flow, section, offset, window_volume, window_time],
+        );
     }
 
     /// Takes up what the buffer, of a `length` \[m\], shows after an acoustic step of `duration` \[s\].

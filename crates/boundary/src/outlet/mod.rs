@@ -7,7 +7,7 @@
 mod coupling;
 mod periodic;
 
-pub use coupling::{CoupledState, Coupling};
+pub use coupling::Coupling;
 pub(crate) use coupling::{Outlet, Seen, common_pressure};
 pub use periodic::{Cycle, mean_split};
 

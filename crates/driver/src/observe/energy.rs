@@ -6,6 +6,7 @@ use vaso_boundary::Condition;
 use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_metrics::{EnergyBalance, EnergySample};
+use vaso_particles::Memory;
 
 /// Follows the energy of the blood.
 ///
@@ -48,6 +49,12 @@ impl EnergyObserver {
             kinetic_energy: energy.kinetic,
         };
         self.balance.add(flow.time, sample);
+    }
+
+    pub(super) fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self { balance, is_inlet: _, wall: (work, time) } = self;
+        balance.remember("energy.balance", memory);
+        memory.fields("energy.wall", &mut [work, time]);
     }
 
     /// Energy that nothing supplied, over what went through; zero where some is missing instead, `None` where none went

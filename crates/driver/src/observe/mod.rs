@@ -21,6 +21,7 @@ use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::EndReason;
 use vaso_metrics::Verdict;
+use vaso_particles::Memory;
 
 /// All that watches a flow.
 pub struct Observers {
@@ -48,6 +49,21 @@ impl Observers {
             steady.filter(|_| plan.period.is_none()).map(|share| Settling::new(share, plan.settling_time));
         let wall = plan.wall_metrics.then(|| WallObserver::new(case, plan)).transpose()?;
         Ok(Self { openings, wall, settling, energy: EnergyObserver::new(plan) })
+    }
+
+    /// Shows all that has been summed so far.
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self { openings, wall, settling, energy } = self;
+        if let Some(openings) = openings {
+            openings.remember(memory);
+        }
+        if let Some(wall) = wall {
+            wall.remember(memory);
+        }
+        if let Some(settling) = settling {
+            settling.remember(memory);
+        }
+        energy.remember(memory);
     }
 
     /// Takes the state after a step; tells why the run may end, if it may, also in words.

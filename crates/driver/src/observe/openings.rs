@@ -5,12 +5,14 @@ use crate::flow::Flow;
 use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_metrics::{Change, Criterion, OpeningCycle, OpeningCycles, OpeningSample, Verdict};
+use vaso_particles::Memory;
 
 /// How much more the wall shear stress of a cycle may differ than the openings: it is a small difference of large sums.
 const SHEAR_LENIENCE: f64 = 2.0;
 
 /// Follows flow and pressure of the openings over cycles.
 pub struct OpeningObserver {
+    names: Vec<String>,
     cycles: OpeningCycles,
     criterion: Option<Criterion>,
     /// Whole cycles so far.
@@ -36,7 +38,8 @@ impl OpeningObserver {
             most_cycles: u64::MAX,
         });
         Ok(Self {
-            cycles: OpeningCycles::new(names, 0.0, period)?,
+            cycles: OpeningCycles::new(names.clone(), 0.0, period)?,
+            names,
             criterion,
             completed: Vec::new(),
             changes: Vec::new(),
@@ -44,6 +47,27 @@ impl OpeningObserver {
             judged: 0,
             has_begun: false,
         })
+    }
+
+    pub(super) fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self { names, cycles, criterion: _, completed, changes, shear_changes, judged, has_begun } = self;
+        cycles.remember("cycles", memory);
+        let [mut n_completed, mut n_changes, mut n_judged, mut begun] =
+            [completed.len(), changes.len(), *judged, usize::from(*has_begun)].map(|n| n as u64);
+        memory.counts("cycles.counts", &mut [&mut n_completed, &mut n_changes, &mut n_judged, &mut begun]);
+        completed.resize_with(n_completed as usize, || OpeningCycle::empty(names));
+        for (k, cycle) in completed.iter_mut().enumerate() {
+            cycle.remember(&format!("cycles.{k}"), memory);
+        }
+        changes.resize_with(n_changes as usize, || Change::none(names.len()));
+        for (k, change) in changes.iter_mut().enumerate() {
+            change.remember(&format!("cycles.{k}.change"), memory);
+        }
+        // Not a number where the wall is not watched.
+        let mut shear: Vec<f64> = shear_changes.iter().map(|change| change.unwrap_or(f64::NAN)).collect();
+        memory.numbers("cycles.shear_changes", &mut shear);
+        *shear_changes = shear.into_iter().map(|change| Some(change).filter(|c| !c.is_nan())).collect();
+        (*judged, *has_begun) = (n_judged as usize, begun != 0);
     }
 
     pub(super) fn add<R: Real, W: MovingWall>(&mut self, flow: &Flow<R, W>) -> Result<(), DriverError> {

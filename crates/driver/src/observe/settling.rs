@@ -3,6 +3,7 @@
 use crate::flow::Flow;
 use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
+use vaso_particles::Memory;
 
 /// Compares the mean flows of successive intervals.
 ///
@@ -22,6 +23,16 @@ impl Settling {
     /// Settled once no flow changes by more than `share` of the largest over an `interval` \[s\].
     pub(super) fn new(share: f64, interval: f64) -> Self {
         Self { share, interval, end: interval, time: 0.0, volume: Vec::new(), before: None, last_time: 0.0 }
+    }
+
+    pub(super) fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self { share: _, interval: _, end, time, volume, before, last_time } = self;
+        memory.fields("settling.clock", &mut [end, time, last_time]);
+        memory.numbers("settling.volume", volume);
+        // Empty before the first interval has ended.
+        let mut means = before.take().unwrap_or_default();
+        memory.numbers("settling.before", &mut means);
+        *before = Some(means).filter(|means| !means.is_empty());
     }
 
     /// Takes the state after a step; tells when it has settled.

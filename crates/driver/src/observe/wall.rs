@@ -12,7 +12,7 @@ use vaso_geometry::SignedDistance;
 use vaso_metrics::{
     BINS, NearWallDistance, ShearCycle, ShearCycles, ShearWindow, Viscosity, WallMesh, WallShear,
 };
-use vaso_particles::WallDistance;
+use vaso_particles::{Memory, WallDistance};
 
 /// Samples in a window: they take the noise of single particles away before magnitudes are taken.
 const SAMPLES: f64 = 10.0;
@@ -85,6 +85,43 @@ impl WallObserver {
         self.cycles.is_some()
     }
 
+    pub(super) fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self {
+            mesh,
+            stress,
+            cycle,
+            missing,
+            means,
+            counted: _,
+            shear: _,
+            exact: _,
+            window,
+            length: _,
+            next_sample,
+            next_step,
+            next_window,
+            cycles,
+        } = self;
+        let n = mesh.position.len();
+        remember_stress(stress, n, memory);
+        let [mut has_cycle, mut n_missing] = [u64::from(cycle.is_some()), *missing as u64];
+        memory.counts("shear.counts", &mut [&mut has_cycle, &mut n_missing, next_step]);
+        *missing = n_missing as usize;
+        memory.fields("shear.next_s", &mut [next_sample, next_window]);
+        *cycle = (has_cycle != 0).then(|| cycle.take().unwrap_or_else(|| ShearCycle::empty(n)));
+        if let Some(cycle) = cycle {
+            cycle.remember("shear.cycle", memory);
+        }
+        let (mut numbers, mut values): (Vec<u64>, Vec<f64>) = means.iter().copied().unzip();
+        memory.integers("shear.mean_numbers", &mut numbers);
+        memory.numbers("shear.means", &mut values);
+        *means = numbers.into_iter().zip(values).collect();
+        window.remember("shear.window", memory);
+        if let Some(cycles) = cycles {
+            cycles.remember("shear.sums", memory);
+        }
+    }
+
     /// Mean over the wall outside the buffers of the time-averaged stress of a cycle \[Pa\], where it is whole.
     pub fn mean_tawss(&self, cycle: u64) -> Option<f64> {
         self.means.iter().find(|(number, _)| *number == cycle).map(|(_, mean)| *mean)
@@ -149,6 +186,19 @@ impl WallObserver {
         self.stress = Some(stress);
         Ok(last.or(change))
     }
+}
+
+/// Stress of `n` points: none at all before the first window is full, not a number where a point has none.
+fn remember_stress(stress: &mut Option<Vec<Option<DVec3>>>, n: usize, memory: &mut dyn Memory) {
+    let told = stress.take().unwrap_or_default();
+    let mut vectors: Vec<DVec3> = told.into_iter().map(|s| s.unwrap_or(DVec3::NAN)).collect();
+    memory.vectors("shear.stress", &mut vectors);
+    if !(vectors.is_empty() || vectors.len() == n) {
+        memory.refuse("shear.stress", format!("it has {} points, {n} are needed", vectors.len()));
+        vectors.clear();
+    }
+    let some = |vector: DVec3| Some(vector).filter(|v| !v.is_nan());
+    *stress = (!vectors.is_empty()).then(|| vectors.into_iter().map(some).collect());
 }
 
 /// Area of each point of the mesh \[m^2\], zero up to `length` \[m\] from an opening.

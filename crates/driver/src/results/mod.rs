@@ -9,20 +9,26 @@ use crate::observe::Observers;
 use crate::plan::Plan;
 use frames::interpolate;
 use glam::DVec3;
+use std::path::PathBuf;
 use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
-use vaso_io::{EndReason, OutputDir, SeriesWriter, Table};
+use vaso_io::{
+    EndReason, IoError, OutputDir, SeriesWriter, SurfaceField, SurfaceMesh, SurfaceSeriesWriter, Table,
+};
+use vaso_particles::Memory;
 
 mod account;
 mod frames;
 mod shell;
 mod solid;
+mod standing;
 mod summary;
 mod wall;
 
 pub use frames::append_frame;
 use wall::WallFile;
 
+pub use standing::Standing;
 pub use summary::{numbers, opening_entry, surface_report};
 
 /// Mean of each opening over a time.
@@ -49,6 +55,42 @@ impl Means {
     fn mean(&self, sum: f64) -> f64 {
         if self.time > 0.0 { sum / self.time } else { 0.0 }
     }
+
+    fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { time, flow, pressure } = self;
+        memory.fields(&format!("{name}.time_s"), &mut [time]);
+        memory.fixed_numbers(&format!("{name}.flow"), flow);
+        memory.fixed_numbers(&format!("{name}.pressure"), pressure);
+    }
+}
+
+/// A series of particles: a new one, or that at `path` with its frames up to the time `kept` \[s\].
+fn open(path: PathBuf, kept: Option<f64>) -> Result<SeriesWriter, IoError> {
+    match kept {
+        None => Ok(SeriesWriter::create(path)),
+        Some(time) => SeriesWriter::continue_at(path, time),
+    }
+}
+
+/// The same of a surface.
+fn open_surface(
+    path: PathBuf,
+    mesh: SurfaceMesh<'_>,
+    fields: &[SurfaceField<'_>],
+    kept: Option<f64>,
+) -> Result<SurfaceSeriesWriter, IoError> {
+    match kept {
+        None => SurfaceSeriesWriter::create(path, mesh, fields),
+        Some(time) => SurfaceSeriesWriter::continue_at(path, mesh, fields, time),
+    }
+}
+
+/// The same of a table, which is cut at the time of the checkpoint.
+fn open_table(path: PathBuf, header: &[String], kept: Option<f64>) -> Result<Table, IoError> {
+    match kept {
+        None => Table::create(path, header),
+        Some(time) => Table::continue_at(path, header, time),
+    }
 }
 
 /// Open result files of a run, `F` that of a wall that deforms.
@@ -72,7 +114,8 @@ pub struct Results<F> {
 }
 
 impl<F> Results<F> {
-    /// Opens the files in `out`.
+    /// Opens the files in `out`: new ones, or those of a run that goes on from where they stood, and then [`Self::remember`] reads the
+    /// rest.
     ///
     /// # Errors
     /// When the folder cannot be written.
@@ -81,13 +124,15 @@ impl<F> Results<F> {
         case: &Case,
         plan: &Plan,
         flow: &Flow<R, W>,
+        from: Option<&Standing>,
     ) -> Result<Self, DriverError> {
+        let (kept_rows, kept) = (from.map(|s| s.time), from.map(Standing::kept_frames));
         let mut header = vec!["time_s".to_owned()];
         for o in &plan.openings {
             header.push(format!("{}.flow_m3_s", o.name));
             header.push(format!("{}.pressure_pa", o.name));
         }
-        let table = Table::create(out.file("openings.csv"), &header)?;
+        let table = open_table(out.file("openings.csv"), &header, kept_rows)?;
         let probes = if case.scene.probes.is_empty() {
             None
         } else {
@@ -95,21 +140,18 @@ impl<F> Results<F> {
             for p in &case.scene.probes {
                 header.extend(["pressure_pa", "u_m_s", "v_m_s", "w_m_s"].map(|q| format!("{}.{q}", p.name)));
             }
-            Some(Table::create(out.file("probes.csv"), &header)?)
+            Some(open_table(out.file("probes.csv"), &header, kept_rows)?)
         };
         let n = plan.openings.len();
         let observers = Observers::new(case, plan)?;
         let fields = &case.scene.output.fields;
-        let wall = observers.wall.as_ref().map(|w| WallFile::create(out.file("wall.vtkhdf"), w, fields));
+        let wall_file = out.file("wall.vtkhdf");
+        let wall = observers.wall.as_ref().map(|w| WallFile::create(wall_file.clone(), w, fields, kept));
         Ok(Self {
             wall: wall.transpose()?,
-            deforming: flow
-                .wall
-                .as_ref()
-                .map(|wall| wall.wall.create(out.file("wall.vtkhdf"), case))
-                .transpose()?,
+            deforming: flow.wall.as_ref().map(|wall| wall.wall.create(wall_file, case, kept)).transpose()?,
             folder: out.path().to_owned(),
-            fluid: SeriesWriter::create(out.file("fluid.vtkhdf")),
+            fluid: open(out.file("fluid.vtkhdf"), kept)?,
             table,
             probes,
             next_frame: 0.0,
@@ -120,6 +162,56 @@ impl<F> Results<F> {
             last_time: 0.0,
             observers,
         })
+    }
+
+    /// Shows all that has been summed so far, and what is due when.
+    pub fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self {
+            folder: _,
+            // Where these stand is told by `standing`.
+            fluid: _,
+            wall,
+            deforming: _,
+            table: _,
+            probes: _,
+            next_frame,
+            next_row,
+            interval,
+            late,
+            late_start,
+            last_time,
+            observers,
+        } = self;
+        if let Some(wall) = wall {
+            wall.remember(memory);
+        }
+        memory.fields("output.next_s", &mut [next_frame, next_row, last_time]);
+        interval.remember("output.interval", memory);
+        late.remember("output.late", memory);
+        let (mut time, mut volumes) = late_start.take().map_or((None, Vec::new()), |(t, v)| (Some(t), v));
+        memory.optional("output.late_start_s", &mut time);
+        memory.numbers("output.late_start_m3", &mut volumes);
+        *late_start = time.map(|time| (time, volumes));
+        observers.remember(memory);
+    }
+
+    /// Where the files stand at `time` \[s\], before a frame that stands for an interruption.
+    pub fn standing(&self, time: f64) -> Standing {
+        Standing {
+            time,
+            frames: self.fluid.len() as u64,
+            last_frame: self.fluid.last_time(),
+            rows: self.table.rows(),
+        }
+    }
+
+    /// Forces all rows of the tables to disk; frames are there once they are written.
+    ///
+    /// # Errors
+    /// When the disk refuses.
+    pub fn sync(&self) -> Result<(), IoError> {
+        self.table.sync()?;
+        self.probes.as_ref().map_or(Ok(()), Table::sync)
     }
 
     /// The output folder.

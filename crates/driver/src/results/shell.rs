@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::plan::Plan;
+use crate::results::open_surface;
 use crate::world::WallParticles;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -43,7 +44,12 @@ const SMALLER_CURVATURE: (&str, &str, &str) =
     (schema::CURVATURE_MIN, "1/m", "the smaller principal curvature");
 
 impl ShellFile {
-    fn new<R: Real>(path: PathBuf, case: &Case, shell: &Shell<R>) -> Result<Self, DriverError> {
+    fn new<R: Real>(
+        path: PathBuf,
+        case: &Case,
+        shell: &Shell<R>,
+        kept: Option<f64>,
+    ) -> Result<Self, DriverError> {
         let fields = &case.scene.output.fields;
         let mesh = WallMesh::new(&case.vessel, shell.numbers().spacing);
         let near = neighbours(&mesh, shell);
@@ -65,7 +71,7 @@ impl ShellFile {
         all.extend(SCALARS[first..].iter().map(|field| declared(*field, 1)));
         all.push(declared(SMALLER_CURVATURE, 1));
         let surface = SurfaceMesh { points: &mesh.position, triangles: &mesh.triangles };
-        Ok(Self { series: SurfaceSeriesWriter::create(path, surface, &all)?, near, mesh })
+        Ok(Self { series: open_surface(path, surface, &all, kept)?, near, mesh })
     }
 
     /// Means over the particles near each point.
@@ -165,8 +171,8 @@ impl<R: Real> Deforming for ShellWall<R> {
         planned.build(case, plan, body).map(Some)
     }
 
-    fn create(&self, path: PathBuf, case: &Case) -> Result<ShellFile, DriverError> {
-        ShellFile::new(path, case, &self.shell)
+    fn create(&self, path: PathBuf, case: &Case, kept: Option<f64>) -> Result<ShellFile, DriverError> {
+        ShellFile::new(path, case, &self.shell, kept)
     }
 
     fn append(

@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::plan::Plan;
+use crate::results::open;
 use crate::world::WallParticles;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -24,8 +25,8 @@ impl<R: Real> Deforming for Solid<R> {
         planned.build(case, plan, body).map(Some)
     }
 
-    fn create(&self, path: PathBuf, _: &Case) -> Result<SeriesWriter, DriverError> {
-        Ok(SeriesWriter::create(path))
+    fn create(&self, path: PathBuf, _: &Case, kept: Option<f64>) -> Result<SeriesWriter, DriverError> {
+        Ok(open(path, kept)?)
     }
 
     fn append(

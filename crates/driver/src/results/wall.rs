@@ -2,10 +2,12 @@
 
 use crate::error::DriverError;
 use crate::observe::WallObserver;
+use crate::results::open_surface;
 use glam::DVec3;
 use std::path::PathBuf;
 use vaso_io::{SurfaceField, SurfaceFrame, SurfaceMesh, SurfaceSeriesWriter, schema};
 use vaso_metrics::{Definition, SHEAR_DEFINITIONS, STRESS_DEFINITION, ShearCycle};
+use vaso_particles::Memory;
 use vaso_scene::Field;
 
 /// The series of the wall.
@@ -23,11 +25,16 @@ const NORMAL: Definition =
     Definition { name: schema::NORMAL, unit: "", formula: "unit normal out of the lumen", source: "" };
 
 impl WallFile {
-    /// Starts the file with what `fields` asks for.
+    /// Starts the file with what `fields` asks for, or goes on with the frames up to the time `kept` \[s\].
     ///
     /// # Errors
-    /// When it cannot be declared.
-    pub(super) fn create(path: PathBuf, wall: &WallObserver, fields: &[Field]) -> Result<Self, DriverError> {
+    /// When it cannot be declared, or what is there is not such a series.
+    pub(super) fn create(
+        path: PathBuf,
+        wall: &WallObserver,
+        fields: &[Field],
+        kept: Option<f64>,
+    ) -> Result<Self, DriverError> {
         let indices: Vec<usize> = fields.iter().filter_map(|f| index(*f)).collect();
         let has_stress = fields.contains(&Field::Wss);
         let vector = |definition| declared(definition, 3);
@@ -35,8 +42,15 @@ impl WallFile {
         declared_fields.extend(has_stress.then(|| vector(&STRESS_DEFINITION)));
         declared_fields.extend(indices.iter().map(|&k| declared(&SHEAR_DEFINITIONS[k], 1)));
         let mesh = SurfaceMesh { points: &wall.mesh.position, triangles: &wall.mesh.triangles };
-        let series = SurfaceSeriesWriter::create(path, mesh, &declared_fields)?;
+        let series = open_surface(path, mesh, &declared_fields, kept)?;
         Ok(Self { series, has_stress, indices, written: None })
+    }
+
+    pub(super) fn remember(&mut self, memory: &mut dyn Memory) {
+        let Self { series: _, has_stress: _, indices: _, written } = self;
+        let mut numbers: Vec<u64> = written.iter().copied().collect();
+        memory.integers("output.written_cycle", &mut numbers);
+        *written = numbers.first().copied();
     }
 
     /// Appends a frame, unless this time has one.

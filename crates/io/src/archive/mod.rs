@@ -5,6 +5,7 @@
 //! by another version is an error, never data.
 
 mod columns;
+mod memory;
 
 use crate::hdf5::{Read, Reader, Values, Write, Writer};
 use crate::{IoError, atomic};

@@ -2,6 +2,7 @@
 
 use glam::DMat3;
 use rayon::prelude::*;
+use vaso_particles::Memory;
 
 /// Particles a chunk of a sum: fixed, so that the order of summation does not depend on threads.
 const CHUNK: usize = 4096;
@@ -47,7 +48,7 @@ pub struct EnergySample {
 
 /// Energy balance of the blood in rigid walls, from the first sample on: what entered went into heat or motion.
 ///
-/// Power is taken to go in a straight line between samples. The fields are the state, for a checkpoint.
+/// Power is taken to go in a straight line between samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyBalance {
     /// Time and state of the last sample.
@@ -76,6 +77,18 @@ impl EnergyBalance {
             }
         }
         self.last = Some((time, now));
+    }
+
+    /// Shows all of it, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { last, initial_kinetic_energy, inflow, throughput, dissipated } = self;
+        memory.fields(name, &mut [initial_kinetic_energy, inflow, throughput, dissipated]);
+        let (mut time, mut now) =
+            last.map_or((None, EnergySample::default()), |(time, now)| (Some(time), now));
+        memory.optional(&format!("{name}.last_s"), &mut time);
+        let EnergySample { inflow_power, dissipation, kinetic_energy } = &mut now;
+        memory.fields(&format!("{name}.last"), &mut [inflow_power, dissipation, kinetic_energy]);
+        *last = time.map(|time| (time, now));
     }
 
     /// What entered and went into neither heat nor motion \[J\]: numerical dissipation, and what the estimates miss.

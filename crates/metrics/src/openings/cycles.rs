@@ -3,6 +3,7 @@
 use crate::clock::CycleClock;
 use crate::error::MetricsError;
 use crate::openings::statistics::{OpeningCycle, Waveform};
+use vaso_particles::Memory;
 
 /// Parts a cycle is divided into: fine enough for any pulse, coarse enough to be free of sound and of single particles.
 pub const BINS: usize = 100;
@@ -20,8 +21,7 @@ pub struct OpeningSample {
 
 /// Sums over the cycle that is going on, for every opening.
 ///
-/// Between samples flow and pressure are taken to go in a straight line; sums are exact for that. For a checkpoint:
-/// [`state`](Self::state) and [`restore`](Self::restore).
+/// Between samples flow and pressure are taken to go in a straight line; sums are exact for that.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningCycles {
     names: Vec<String>,
@@ -108,41 +108,19 @@ impl OpeningCycles {
         })
     }
 
-    /// All numbers that change, for a checkpoint: as floats, and the number of the current bin.
-    pub fn state(&self) -> (Vec<f64>, u64) {
-        let mut floats = vec![self.clock.last().unwrap_or(f64::NAN)];
-        floats.extend(&self.covered);
-        for k in 0..self.names.len() {
-            let last = &self.last[k];
-            floats.extend([last.flow, last.pressure, last.kinetic_power]);
-            floats.extend(self.sums[k].flow.iter().chain(&self.sums[k].pressure).chain(&self.energy[k]));
+    /// Shows all that changes, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { names: _, clock, last, covered, sums, energy } = self;
+        clock.remember(&format!("{name}.clock"), memory);
+        memory.fixed_numbers(&format!("{name}.covered_s"), covered);
+        for (k, ((last, sums), energy)) in last.iter_mut().zip(sums).zip(energy).enumerate() {
+            let OpeningSample { flow, pressure, kinetic_power } = last;
+            let [work, kinetic_energy] = energy;
+            let own = &mut [flow, pressure, kinetic_power, work, kinetic_energy];
+            memory.fields(&format!("{name}.{k}.last"), own);
+            memory.fixed_numbers(&format!("{name}.{k}.flow"), &mut sums.flow);
+            memory.fixed_numbers(&format!("{name}.{k}.pressure"), &mut sums.pressure);
         }
-        (floats, self.clock.cycle())
-    }
-
-    /// Goes on from a [`state`](Self::state) of the same openings.
-    ///
-    /// # Errors
-    /// When it is that of another number of openings; nothing is changed then.
-    pub fn restore(&mut self, floats: &[f64], bin: u64) -> Result<(), MetricsError> {
-        let expected = 1 + BINS + self.names.len() * (5 + 2 * BINS);
-        MetricsError::length("state of the openings", floats.len(), expected)?;
-        let mut rest = floats.iter().copied();
-        let mut take = |to: &mut [f64]| to.iter_mut().zip(&mut rest).for_each(|(to, value)| *to = value);
-        let mut last_time = [0.0];
-        take(&mut last_time);
-        take(&mut self.covered);
-        for k in 0..self.names.len() {
-            let mut last = [0.0; 3];
-            take(&mut last);
-            let [flow, pressure, kinetic_power] = last;
-            self.last[k] = OpeningSample { flow, pressure, kinetic_power };
-            take(&mut self.sums[k].flow);
-            take(&mut self.sums[k].pressure);
-            take(&mut self.energy[k]);
-        }
-        self.clock.resume(bin, Some(last_time[0]).filter(|time| !time.is_nan()));
-        Ok(())
     }
 }
 

@@ -1,6 +1,7 @@
 //! Whether cycles have become alike.
 
 use crate::openings::statistics::{OpeningCycle, Range};
+use vaso_particles::Memory;
 
 /// Range over mean below which a waveform counts as steady, and is compared with its mean.
 const STEADY: f64 = 1e-3;
@@ -18,6 +19,17 @@ pub struct Change {
 }
 
 impl Change {
+    /// No change of `n` openings, to be filled by [`Self::remember`].
+    pub fn none(n: usize) -> Self {
+        Self { flow: vec![0.0; n], pressure: vec![0.0; n] }
+    }
+
+    /// Shows all of it, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { flow, pressure } = self;
+        memory.fields(name, &mut flow.iter_mut().chain(pressure).collect::<Vec<_>>());
+    }
+
     /// Change from the cycle `before` to `now`.
     ///
     /// # Panics

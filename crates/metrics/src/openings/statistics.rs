@@ -3,6 +3,7 @@
 use crate::definition::Definition;
 use crate::error::MetricsError;
 use crate::openings::cycles::BINS;
+use vaso_particles::Memory;
 
 /// Flow and pressure over a cycle, or their integrals, one entry a bin.
 #[derive(Clone, Debug, PartialEq)]
@@ -127,6 +128,31 @@ pub const OPENING_DEFINITIONS: [Definition; 6] = [
 ];
 
 impl OpeningCycle {
+    /// A cycle of the openings `names` without values, to be filled by [`Self::remember`].
+    pub fn empty(names: &[String]) -> Self {
+        let n = names.len();
+        Self {
+            number: 0,
+            period: 0.0,
+            names: names.to_vec(),
+            waveform: vec![Waveform::zero(); n],
+            pressure_work: vec![0.0; n],
+            kinetic_energy: vec![0.0; n],
+        }
+    }
+
+    /// Shows all of it, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { number, period, names: _, waveform, pressure_work, kinetic_energy } = self;
+        memory.counts(&format!("{name}.number"), &mut [number]);
+        let mut fields = vec![period];
+        for Waveform { flow, pressure } in waveform {
+            fields.extend(flow.iter_mut().chain(pressure));
+        }
+        fields.extend(pressure_work.iter_mut().chain(kinetic_energy));
+        memory.fields(name, &mut fields);
+    }
+
     /// Number of the opening of this name.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use crate::wall::indices::{PointIndices, ShearCycle};
 use crate::wall::integral::{mean_absolute, mean_magnitude};
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_particles::{Columns, ScalarColumn, VectorColumn, Visitor};
+use vaso_particles::{Columns, Memory, ScalarColumn, VectorColumn, Visitor};
 
 /// Least part of a cycle a point must have had a value for to get indices: with less the rest of the cycle is a guess.
 const LEAST_COVERAGE: f64 = 0.9;
@@ -15,8 +15,6 @@ const LEAST_COVERAGE: f64 = 0.9;
 ///
 /// Between samples the stress is taken to go in a straight line; all sums are exact for that. Memory does not grow with the
 /// number of samples. Where the wall moves, samples must be given in the frame of the wall as it was at first.
-///
-/// For a checkpoint: the columns are the state, with what [`CycleClock::resume`] needs.
 #[derive(Clone, Debug)]
 pub struct ShearCycles {
     /// Where in its cycles the series is.
@@ -58,6 +56,16 @@ impl ShearCycles {
             direction: vectors("direction", "", DVec3::ZERO),
             normal,
         })
+    }
+
+    /// Shows all that changes, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        memory.columns(name, self);
+        let (seen, needed) = (self.last.len(), self.normal.len());
+        if seen != needed {
+            memory.refuse(name, format!("it has {seen} points, {needed} are needed"));
+        }
+        self.clock.remember(&format!("{name}.clock"), memory);
     }
 
     /// Takes the stress \[Pa\] of all points at `time` \[s\]; gives the cycle that ended since the last sample, of several the

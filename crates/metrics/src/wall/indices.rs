@@ -2,6 +2,7 @@
 
 use crate::definition::Definition;
 use glam::DVec3;
+use vaso_particles::Memory;
 
 /// Largest residence time and activation potential told \[1/Pa\]: beyond, they say no more than that there is hardly any shear.
 pub const LARGEST_INVERSE: f64 = 1e3;
@@ -35,6 +36,21 @@ impl PointIndices {
         let rrt = (mean.length() > NO_MEAN * tawss).then(|| mean.length().recip().min(LARGEST_INVERSE));
         let ecap = osi.map(|osi| (osi / tawss).min(LARGEST_INVERSE));
         Self { mean, tawss, osi, rrt, ecap, transverse, peak }
+    }
+
+    /// Its numbers in the order of the fields; those that are missing are not numbers.
+    fn to_array(self) -> [f64; 9] {
+        let Self { mean, tawss, osi, rrt, ecap, transverse, peak } = self;
+        let [osi, rrt, ecap, transverse] = [osi, rrt, ecap, transverse].map(|x| x.unwrap_or(f64::NAN));
+        [mean.x, mean.y, mean.z, tawss, osi, rrt, ecap, transverse, peak]
+    }
+
+    /// The indices of which [`Self::to_array`] gave the numbers; `None` where none of them is one.
+    fn from_array([x, y, z, tawss, osi, rrt, ecap, transverse, peak]: [f64; 9]) -> Option<Self> {
+        let [osi, rrt, ecap, transverse] =
+            [osi, rrt, ecap, transverse].map(|x| Some(x).filter(|x| !x.is_nan()));
+        let indices = Self { mean: DVec3::new(x, y, z), tawss, osi, rrt, ecap, transverse, peak };
+        (!tawss.is_nan()).then_some(indices)
     }
 }
 
@@ -91,6 +107,21 @@ pub const SHEAR_DEFINITIONS: [Definition; 6] = [
 ];
 
 impl ShearCycle {
+    /// A cycle of `n` points without values, to be filled by [`Self::remember`].
+    pub fn empty(n: usize) -> Self {
+        Self { number: 0, point: vec![None; n] }
+    }
+
+    /// Shows all of it, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { number, point } = self;
+        memory.counts(&format!("{name}.number"), &mut [number]);
+        let of = |p: &Option<PointIndices>| p.map_or([f64::NAN; 9], PointIndices::to_array);
+        let mut numbers: Vec<f64> = point.iter().flat_map(of).collect();
+        memory.fixed_numbers(&format!("{name}.indices"), &mut numbers);
+        *point = numbers.as_chunks().0.iter().map(|p| PointIndices::from_array(*p)).collect();
+    }
+
     /// The fields of [`SHEAR_DEFINITIONS`], one entry a point; not a number where there is no value.
     pub fn fields(&self) -> [Vec<f64>; 6] {
         let field = |value: fn(&PointIndices) -> Option<f64>| {

@@ -2,12 +2,12 @@
 
 use crate::error::MetricsError;
 use glam::DVec3;
-use vaso_particles::{Column, Columns, VectorColumn, Visitor};
+use vaso_particles::{Column, Columns, Memory, VectorColumn, Visitor};
 
 /// Mean over the samples of a window, say ten within a hundredth of a cycle.
 ///
 /// A magnitude of a noisy vector is too large on the mean, and the oscillatory shear index with it: noise has to go before the
-/// magnitude is taken. For a checkpoint: the columns and the public fields are the state.
+/// magnitude is taken.
 #[derive(Clone, Debug)]
 pub struct ShearWindow {
     /// Samples in the window.
@@ -58,6 +58,17 @@ impl ShearWindow {
         let time = self.time_sum / samples as f64;
         *self = Self::new(self.sum.len());
         Some((time, stress))
+    }
+
+    /// Shows all that changes, under `name`.
+    pub fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let needed = self.sum.len();
+        memory.columns(name, self);
+        if self.sum.len() != needed {
+            memory.refuse(name, format!("it has {} points, {needed} are needed", self.sum.len()));
+        }
+        memory.counts(&format!("{name}.samples"), &mut [&mut self.samples]);
+        memory.fields(&format!("{name}.time_sum_s"), &mut [&mut self.time_sum]);
     }
 }
 
