@@ -170,7 +170,7 @@ fn a_head_start_makes_up_for_a_slow_start() {
     let signal = Signal { source: Source::Waveform(flow.clone()), ramp: 0.1 * PERIOD };
     let n = 4000;
     let run = |model: &Windkessel, start: f64, flow: &dyn Fn(f64) -> f64| {
-        (1..=n).fold(OutletState::at_rest(start), |state, k| {
+        (1..=n).fold(OutletState { flow: flow(0.0), ..OutletState::at_rest(start) }, |state, k| {
             let t = PERIOD * f64::from(k) / f64::from(n);
             model.advance(&state, flow(t), PERIOD / f64::from(n), Integration::Exponential)
         })
