@@ -9,7 +9,7 @@ use crate::unit::LengthUnit;
 #[non_exhaustive]
 pub enum GeometryError {
     /// The file cannot be opened or read.
-    #[error("cannot read surface \"{}\"", path.display())]
+    #[error("cannot read surface \"{}\": {source}; check the path, and that the file may be read", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -17,7 +17,7 @@ pub enum GeometryError {
         source: std::io::Error,
     },
     /// The file cannot be created or written.
-    #[error("cannot write surface \"{}\"", path.display())]
+    #[error("cannot write surface \"{}\": {source}; name another place", path.display())]
     Write {
         /// The file.
         path: PathBuf,
