@@ -56,10 +56,15 @@ validation *cases:
 generators:
     cargo run --release -p vaso-tests --example generators
 
-# The reference of case.toml made from its schema, and the documentation of the crates.
+# The reference and the JSON Schema of case.toml made from its schema, and the documentation of the crates.
 docs:
     cargo run -p vaso-scene --example case_reference > docs/case-reference.md
+    cargo run -- schema > docs/case.schema.json
     cargo doc --workspace --no-deps
+
+# The messages of the wrong cases in tests/bad, written anew: read the difference before it is committed.
+bless:
+    VASO_BLESS=1 cargo test -p vaso-driver --test bad
 
 # A target of the fuzzer (stl, vtp, case, prepare) for some seconds; needs cargo-fuzz and a C++ compiler.
 fuzz target="vtp" seconds="60":

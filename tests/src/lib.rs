@@ -15,6 +15,24 @@ pub fn root() -> PathBuf {
     tests.parent().map(PathBuf::from).unwrap_or(tests)
 }
 
+/// A Python interpreter that has a module: the one named by `VASO_PYTHON`, else the one `.ci/python.sh` makes. Without one says
+/// that the test is skipped.
+///
+/// # Panics
+/// When there is none in continuous integration, where these tests must run.
+pub fn python(module: &str) -> Option<PathBuf> {
+    let python =
+        std::env::var_os("VASO_PYTHON").map_or_else(|| root().join(".venv/bin/python"), PathBuf::from);
+    let found = std::process::Command::new(&python).args(["-c", &format!("import {module}")]).output();
+    if found.is_ok_and(|output| output.status.success()) {
+        return Some(python);
+    }
+    let reason = format!("{} has no {module}: run `.ci/python.sh` or set VASO_PYTHON", python.display());
+    assert!(std::env::var("CI").as_deref() != Ok("true"), "{reason}");
+    println!("skipped: {reason}");
+    None
+}
+
 /// The folder of outside data, where there is one; else says that the test is skipped.
 ///
 /// # Panics

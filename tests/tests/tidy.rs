@@ -54,6 +54,8 @@ const KEPT_BY: &[(&str, &str)] = &[
     ("stl_io", "geometry"),
     ("roxmltree", "geometry"),
     ("clap", "driver"),
+    ("clap_complete", "driver"),
+    ("clap_mangen", "driver"),
     ("indicatif", "driver"),
     ("ctrlc", "driver"),
 ];

@@ -2,26 +2,10 @@
 
 use glam::DVec3;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 use vaso_io::{Frame, SeriesWriter, SurfaceField, SurfaceFrame, SurfaceMesh, SurfaceSeriesWriter};
-
-/// An interpreter with VTK: the one named by `VASO_PYTHON`, else the one `.ci/python.sh` makes.
-///
-/// Without one the test is skipped, except on the machine whose job it is to run it.
-fn python_with_vtk() -> Option<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let candidate =
-        std::env::var_os("VASO_PYTHON").map_or_else(|| root.join(".venv/bin/python"), PathBuf::from);
-    let found = Command::new(&candidate).args(["-c", "import vtkmodules.vtkIOHDF"]).output();
-    if found.is_ok_and(|output| output.status.success()) {
-        return Some(candidate);
-    }
-    let reason = format!("{} has no VTK: run `.ci/python.sh` or set VASO_PYTHON", candidate.display());
-    assert!(std::env::var("CI").as_deref() != Ok("true"), "{reason}");
-    println!("skipped: {reason}");
-    None
-}
+use vaso_tests::python;
 
 /// The frames of a small body whose number of particles grows, shrinks and stays.
 struct Body {
@@ -92,7 +76,7 @@ fn check_frames(python: &Path, series: &Path, frames: &[serde_json::Value]) {
 
 #[test]
 fn vtk_reads_a_fluid_whose_particle_number_changes() {
-    let Some(python) = python_with_vtk() else { return };
+    let Some(python) = python("vtkmodules.vtkIOHDF") else { return };
     let folder = tempfile::tempdir().unwrap();
     let bodies: Vec<Body> = (0..6).map(Body::fluid).collect();
     let mut series = SeriesWriter::create(folder.path().join("fluid.vtkhdf"));
@@ -104,7 +88,7 @@ fn vtk_reads_a_fluid_whose_particle_number_changes() {
 
 #[test]
 fn vtk_reads_a_wall_whose_fixed_fields_are_stored_once() {
-    let Some(python) = python_with_vtk() else { return };
+    let Some(python) = python("vtkmodules.vtkIOHDF") else { return };
     let folder = tempfile::tempdir().unwrap();
     let bodies: Vec<Body> = (0..8).map(Body::wall).collect();
     let mut series = SeriesWriter::create(folder.path().join("wall.vtkhdf"));
@@ -114,7 +98,7 @@ fn vtk_reads_a_wall_whose_fixed_fields_are_stored_once() {
 
 #[test]
 fn vtk_reads_a_series_that_was_cut_back_and_continued() {
-    let Some(python) = python_with_vtk() else { return };
+    let Some(python) = python("vtkmodules.vtkIOHDF") else { return };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("fluid.vtkhdf");
     let bodies: Vec<Body> = (0..6).map(Body::fluid).collect();
@@ -206,7 +190,7 @@ impl Strip {
 
 #[test]
 fn vtk_reads_a_surface_whose_triangles_are_stored_once() {
-    let Some(python) = python_with_vtk() else { return };
+    let Some(python) = python("vtkmodules.vtkIOHDF") else { return };
     let folder = tempfile::tempdir().unwrap();
     let strip = Strip::new();
     for moves in [false, true] {

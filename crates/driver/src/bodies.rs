@@ -254,6 +254,6 @@ fn obtain<T: Kept>(
         return Ok(Made { body, seconds, cached: true, key });
     }
     let start = Instant::now();
-    let body = make(&case.vessel).map_err(|source| DriverError::generation(&case.scene.file, source))?;
+    let body = make(&case.vessel).map_err(|source| DriverError::generation(case, &source))?;
     Ok(Made { body, seconds: start.elapsed().as_secs_f64(), cached: false, key })
 }

@@ -1,6 +1,6 @@
 //! A case with its vessel: the scene and the surface brought together.
 
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use vaso_geometry::{LengthUnit, Vessel, prepare, read_surface};
@@ -34,6 +34,15 @@ impl Case {
         let scene_opening = match_openings(&scene, &vessel)?;
         let cache = Some(scene.directory.join(".vaso-cache"));
         Ok(Self { scene, overrides: overrides.to_vec(), vessel, scene_opening, cache })
+    }
+
+    /// A scene and its vessel where neither has to be read.
+    ///
+    /// # Errors
+    /// When the openings of the scene are not those of the vessel.
+    pub(crate) fn of_parts(scene: Scene, vessel: Vessel) -> Result<Self, DriverError> {
+        let scene_opening = match_openings(&scene, &vessel)?;
+        Ok(Self { scene, overrides: Vec::new(), vessel, scene_opening, cache: None })
     }
 
     /// A bare surface with all that is to be said about its particles in `settings`, as for `--set`.
@@ -79,7 +88,6 @@ pub fn load_vessel(file: &Path, unit: Option<LengthUnit>) -> Result<Vessel, Driv
 fn match_openings(scene: &Scene, vessel: &Vessel) -> Result<Vec<Option<usize>>, DriverError> {
     let mut found = vec![None; vessel.openings.len()];
     let mut problems = Vec::new();
-    let file = scene.file.display();
     let list = || {
         let metres = vessel.unit.metres();
         let rows = vessel.openings.iter().enumerate().map(|(k, o)| {
@@ -100,34 +108,41 @@ fn match_openings(scene: &Scene, vessel: &Vessel) -> Result<Vec<Option<usize>>, 
         let Some(k) = vessel.opening_near(point) else { continue };
         let away = vessel.openings[k].distance(point) / vessel.openings[k].radius;
         if away > NEAR {
-            problems.push(format!(
-                "{file}: `opening.{}.near`: {:?} is {away:.1} radii from the nearest opening, allowed are {NEAR}; \
-                 coordinates are in the unit of the surface (\"{}\"), and its openings are\n{}",
-                opening.name, opening.near, vessel.unit, list()
+            problems.push(problem(
+                scene,
+                &format!("opening.{}.near", opening.name),
+                format!("is {away:.1} radii from the nearest opening of the surface"),
+                format!("at most {NEAR} radii, in the unit of the surface (\"{}\")", vessel.unit),
+                format!("take one of these, or correct `geometry.unit`\n{}", list()),
             ));
         } else if let Some(other) = found[k].replace(s) {
-            problems.push(format!(
-                "{file}: `opening.{}.near`: {:?} is at the same opening as `{}`; each needs one of\n{}",
-                opening.name,
-                opening.near,
-                scene.openings[other].name,
-                list()
+            problems.push(problem(
+                scene,
+                &format!("opening.{}.near", opening.name),
+                format!("is at the same opening as that of `{}`", scene.openings[other].name),
+                "a point near another opening for each",
+                format!("take one of these\n{}", list()),
             ));
         }
     }
     if vessel.openings.len() < 2 && scene.blood.is_some() {
-        let candidates = vessel.audit.flat_regions.iter().map(|r| {
-            let c = r.center / vessel.unit.metres();
-            format!("    flat region at [{:.3}, {:.3}, {:.3}]: {:?}", c.x, c.y, c.z, r.rejected)
-        });
-        problems.push(format!(
-            "{}: {} openings found, blood needs at least 2; open ends or flat caps across the vessel are \
-             recognised{}{}",
-            scene.geometry.surface.display(),
-            vessel.openings.len(),
-            if vessel.audit.flat_regions.is_empty() { "" } else { ", these were looked at:\n" },
-            candidates.collect::<Vec<_>>().join("\n")
-        ));
+        problems.push(too_few_openings(vessel, &scene.geometry.surface));
     }
     if problems.is_empty() { Ok(found) } else { Err(DriverError::Input { problems }) }
+}
+
+/// What to say of a vessel that blood cannot go through.
+pub(crate) fn too_few_openings(vessel: &Vessel, surface: &Path) -> String {
+    let candidates = vessel.audit.flat_regions.iter().filter_map(|region| {
+        let (c, rejected) = (region.center / vessel.unit.metres(), region.rejected?);
+        Some(format!("\n    flat region at [{:.3}, {:.3}, {:.3}]: {rejected}", c.x, c.y, c.z))
+    });
+    let candidates: String = candidates.collect();
+    format!(
+        "{}: {} openings found, blood needs at least 2; cut the surface open where blood goes in and out, or close it there by \
+         flat caps across the vessel{}{candidates}",
+        surface.display(),
+        vessel.openings.len(),
+        if candidates.is_empty() { "" } else { "; these flat parts are none:" },
+    )
 }

@@ -30,17 +30,21 @@ pub fn case(path: &Path, overrides: &[(String, String)]) -> Result<Checked, Driv
     }
     let mut plan = Plan::new(&case)?;
     plan.warnings.extend(remembered_warnings(&case));
-    let mut report = CheckReport {
+    let report = planned(&case, &plan);
+    let text = print::audit(&case.vessel, &case.scene.geometry.surface) + &print::plan(&case, &plan);
+    Ok(Checked { text, report })
+}
+
+/// The answer about a case that was planned.
+pub(crate) fn planned(case: &Case, plan: &Plan) -> CheckReport {
+    CheckReport {
         surface: surface_report(&case.vessel),
-        numbers: Some(numbers(&plan)),
+        openings: plan.openings.iter().map(|o| opening_entry(&o.name, &o.opening)).collect(),
+        numbers: Some(numbers(plan)),
         effects: plan.effects.clone(),
         predicted: Some(plan.predicted),
         warnings: plan.warnings.clone(),
-        ..CheckReport::default()
-    };
-    report.openings = plan.openings.iter().map(|o| opening_entry(&o.name, &o.opening)).collect();
-    let text = print::audit(&case.vessel, &case.scene.geometry.surface) + &print::plan(&case, &plan);
-    Ok(Checked { text, report })
+    }
 }
 
 /// Checks a bare surface.

@@ -138,7 +138,7 @@ pub fn compare(
     for candidate in &candidates {
         let hear = &mut |step, moved| progress.relaxation(&candidate.name, step, moved);
         let made = measure(&case.vessel, &settings, candidate, sweeps, hear);
-        compared.push(made.map_err(|source| DriverError::generation(&case.scene.file, source))?);
+        compared.push(made.map_err(|source| DriverError::generation(case, &source))?);
     }
     progress.finish();
     let report = CompareReport {

@@ -1,7 +1,8 @@
 //! What is imposed at the openings of a run.
 
 use crate::case::Case;
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
+use crate::print::length;
 use glam::DVec3;
 use vaso_boundary::{
     Condition, Coupling, Integration, Interpolation, Profile, Signal, Source, Waveform, Windkessel,
@@ -34,13 +35,18 @@ pub(crate) fn plan(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Driver
     for (k, opening) in case.vessel.openings.iter().enumerate() {
         let Some(spec) = case.scene_opening[k].map(|s| &scene.openings[s]) else {
             let c: DVec3 = opening.center / case.vessel.unit.metres();
-            problems.push(format!(
-                "{}: the surface has an opening near [{:.3}, {:.3}, {:.3}] that no `[[opening]]` speaks of; \
-                 add one with that `near`",
-                scene.file.display(),
-                c.x,
-                c.y,
-                c.z
+            problems.push(problem(
+                scene,
+                "opening",
+                format!(
+                    "nothing is said about the opening of the surface at [{:.3}, {:.3}, {:.3}] of radius {}",
+                    c.x,
+                    c.y,
+                    c.z,
+                    length(opening.radius)
+                ),
+                "one `[[opening]]` for each opening of the surface",
+                format!("add one with near = [{:.3}, {:.3}, {:.3}]", c.x, c.y, c.z),
             ));
             continue;
         };
@@ -90,14 +96,19 @@ pub(crate) fn plan(case: &Case, ramp: f64) -> Result<Vec<PlannedOpening>, Driver
                     backflow_damping: spec.backflow_damping,
                 });
             }
-            Err(text) => problems.push(format!("{}: `opening.{}`: {text}", scene.file.display(), spec.name)),
+            Err(text) => {
+                let key = format!("opening.{}.condition", spec.name);
+                problems.push(problem(scene, &key, text, "", "correct the keys of this condition"));
+            }
         }
     }
     if problems.is_empty() && !planned.iter().any(|o| o.condition.sets_pressure()) {
-        problems.push(format!(
-            "{}: all openings prescribe a velocity, so nothing sets the pressure and a mismatch of the flows would \
-             pile up; make one an outlet with `condition = \"pressure\"`, `\"resistance\"` or `\"windkessel\"`",
-            scene.file.display()
+        problems.push(problem(
+            scene,
+            "opening",
+            "every opening prescribes its flow, so nothing sets the pressure and a mismatch of the flows would pile up",
+            "at least one of condition \"pressure\", \"resistance\" or \"windkessel\"",
+            "give the vessel an outlet",
         ));
     }
     if problems.is_empty() { Ok(planned) } else { Err(DriverError::Input { problems }) }

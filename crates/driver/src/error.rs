@@ -1,7 +1,10 @@
 //! What ends the program early, and the exit code that tells scripts why.
 
+use crate::case::Case;
+use crate::print::length;
 use std::path::{Path, PathBuf};
 use vaso_generation::GenerationError;
+use vaso_scene::{Problem, Scene};
 
 /// Everything that can stop a command.
 #[derive(Debug, thiserror::Error)]
@@ -11,22 +14,12 @@ pub enum DriverError {
     #[error(transparent)]
     Scene(#[from] vaso_scene::SceneError),
     /// The surface.
-    #[error("{}: {source}", file.display())]
+    #[error("{}", located(file, source))]
     Geometry {
         /// The surface file.
         file: PathBuf,
         /// What is wrong with it.
         source: vaso_geometry::GeometryError,
-    },
-    /// The particles.
-    #[error("{file}: `{key}`: {source}", file = file.display())]
-    Generation {
-        /// The case file, or the bare surface.
-        file: PathBuf,
-        /// Key of the case that decides about it.
-        key: &'static str,
-        /// Why there are none.
-        source: GenerationError,
     },
     /// Case and surface do not go together, or ask for what this version does not have.
     #[error("{}", problems.join("\n"))]
@@ -65,25 +58,51 @@ impl DriverError {
         Self::Input { problems: vec![problem.into()] }
     }
 
-    /// Why there are no particles, with the key of the case that decides about it.
-    pub(crate) fn generation(file: &Path, source: GenerationError) -> Self {
-        let key = match &source {
+    /// Why there are no particles, at the key of the case that decides about it.
+    pub(crate) fn generation(case: &Case, source: &GenerationError) -> Self {
+        let key = match source {
             GenerationError::Setting { key: "thickness", .. } => "wall.thickness",
             GenerationError::Setting { key: "smoothing", .. } => "numerics.smoothing_length",
             GenerationError::NoWall { .. } => "geometry.surface",
             _ => "particles.spacing",
         };
-        Self::Generation { file: file.to_owned(), key, source }
+        let (message, allowed, advice) = match *source {
+            GenerationError::TooCoarse { opening, radius, needed, .. } => (
+                format!("leaves no ring of particles in opening `{}`", case.opening_name(opening)),
+                format!("at most its radius of {}", length(radius)),
+                format!("for a flow take {} or less, or close that opening", length(needed)),
+            ),
+            _ => (source.to_string(), String::new(), String::new()),
+        };
+        Self::input(problem(&case.scene, key, message, allowed, advice))
     }
 
     /// Exit code: 1 the run broke down, 2 the input is wrong, 130 interrupted.
     pub fn exit_code(&self) -> u8 {
         use vaso_io::IoError;
         match self {
-            Self::Scene(_) | Self::Geometry { .. } | Self::Generation { .. } | Self::Input { .. } => 2,
+            Self::Scene(_) | Self::Geometry { .. } | Self::Input { .. } => 2,
             Self::Io(IoError::Finished { .. } | IoError::Foreign { .. } | IoError::Exists { .. }) => 2,
             Self::Io(_) | Self::Report(_) | Self::Metrics(_) | Self::Diverged(_) => 1,
             Self::Interrupted { .. } => 130,
         }
     }
+}
+
+/// What is wrong with a key, where that shows only with the surface at hand or for this version: told as the case reader tells
+/// what it finds, with the place. Texts may be empty.
+pub(crate) fn problem(
+    scene: &Scene,
+    key: &str,
+    message: impl Into<String>,
+    allowed: impl Into<String>,
+    advice: impl Into<String>,
+) -> String {
+    Problem { allowed: allowed.into(), advice: advice.into(), ..scene.problem(key, message) }.to_string()
+}
+
+/// What is wrong with a surface, with its path in front where the text does not name it.
+fn located(file: &Path, source: &vaso_geometry::GeometryError) -> String {
+    let (path, text) = (file.display().to_string(), source.to_string());
+    if text.contains(&path) { text } else { format!("{path}: {text}") }
 }

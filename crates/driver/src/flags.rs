@@ -1,6 +1,8 @@
 //! Commands and flags of the program.
 
+use crate::examples;
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use std::path::PathBuf;
 use vaso_boundary::Split;
 use vaso_driver::DriverError;
@@ -11,7 +13,7 @@ use vaso_units::{dimension, parse_as};
 
 /// Blood flow in a vessel surface by smoothed particle hydrodynamics.
 #[derive(Parser)]
-#[command(name = "vaso", version, arg_required_else_help = true)]
+#[command(name = "vaso", version, arg_required_else_help = true, after_help = examples::VASO)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -19,7 +21,11 @@ pub(crate) struct Cli {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
+    /// A case from a surface: openings found and named, unit guessed, inflow and outlets estimated; it runs as it is.
+    #[command(after_help = examples::NEW)]
+    New(NewFlags),
     /// Read everything, build nothing heavy: audit, openings, plan, expected cost.
+    #[command(after_help = examples::CHECK)]
     Check {
         #[command(flatten)]
         common: Common,
@@ -28,8 +34,10 @@ pub(crate) enum Command {
         unit: Option<String>,
     },
     /// Surface to particles only, with a quality report.
+    #[command(after_help = examples::PARTICLES)]
     Particles(Box<ParticlesFlags>),
     /// The main job: everything from the case to the report.
+    #[command(after_help = examples::RUN)]
     Run {
         #[command(flatten)]
         common: Common,
@@ -38,6 +46,7 @@ pub(crate) enum Command {
         force: bool,
     },
     /// Go on with an interrupted or killed run from its last checkpoint, to the same bits as an unbroken one.
+    #[command(after_help = examples::RESUME)]
     Resume {
         /// Output folder of the run.
         out: PathBuf,
@@ -52,12 +61,47 @@ pub(crate) enum Command {
         json: bool,
     },
     /// Windkessel parameters from cuff pressures, ready to paste into the case.
+    #[command(after_help = examples::TUNE)]
     Tune(TuneFlags),
     /// Make the one-file report of an output folder again.
+    #[command(after_help = examples::REPORT)]
     Report {
         /// Output folder of a run.
         out: PathBuf,
     },
+    /// The JSON Schema of case.toml, by which editors complete and check it.
+    #[command(after_help = examples::SCHEMA)]
+    Schema,
+    /// A script that completes commands and flags in a shell.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// The manual as man pages, one for each command.
+    #[command(after_help = examples::MAN)]
+    Man {
+        /// Folder to write them to, such as that of `man1` in the manual path.
+        dir: PathBuf,
+    },
+}
+
+#[derive(Args)]
+pub(crate) struct NewFlags {
+    /// Folder of the case: one that is new or empty.
+    pub(crate) dir: PathBuf,
+    /// Surface of the lumen, STL or VTP, with open or capped ends; it is copied.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) surface: PathBuf,
+    /// Unit of its coordinates: m, cm, mm or um; default: the one in which it is as large as vessels are.
+    #[arg(long)]
+    pub(crate) unit: Option<String>,
+    /// Say nothing but errors.
+    #[arg(long)]
+    pub(crate) quiet: bool,
+    /// Machine-readable result on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Args)]

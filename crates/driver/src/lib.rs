@@ -13,6 +13,7 @@ pub mod extrusion;
 pub mod flow;
 mod kept;
 pub mod ledger;
+pub mod new;
 pub mod observe;
 pub mod particles;
 pub mod plan;

@@ -1,6 +1,8 @@
 //! The `vaso` binary: commands on case folders.
 
+mod examples;
 mod flags;
+mod manual;
 
 use clap::Parser;
 use flags::{Cli, Command, Common, ParticlesFlags};
@@ -9,7 +11,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vaso_driver::run::Talk;
-use vaso_driver::{Case, DriverError, Plan, check, compare, particles, resume, run, tune};
+use vaso_driver::{Case, DriverError, Plan, check, compare, new, particles, resume, run, tune};
 use vaso_geometry::LengthUnit;
 use vaso_io::Summary;
 
@@ -26,11 +28,19 @@ fn main() -> ExitCode {
 
 fn execute(command: Command) -> Result<(), DriverError> {
     match command {
+        Command::New(flags) => {
+            let made = new::new(&flags.dir, &flags.surface, length_unit(flags.unit.as_deref())?)?;
+            if flags.json {
+                println!("{}", made.report.to_json());
+            } else if !flags.quiet {
+                print!("{}", made.text);
+            }
+            Ok(())
+        }
         Command::Check { common, unit } => {
             set_threads(common.threads)?;
             let checked = if is_surface(&common.case) {
-                let unit = unit.map(|u| u.parse::<LengthUnit>()).transpose();
-                check::surface(&common.case, unit.map_err(|e| DriverError::input(format!("--unit: {e}")))?)?
+                check::surface(&common.case, length_unit(unit.as_deref())?)?
             } else {
                 let mut set = common.set.clone();
                 set.extend(unit.map(|u| ("geometry.unit".to_owned(), u)));
@@ -72,6 +82,20 @@ fn execute(command: Command) -> Result<(), DriverError> {
             println!("{}", file.display());
             Ok(())
         }
+        Command::Schema => {
+            print!("{}", vaso_scene::case_schema());
+            Ok(())
+        }
+        Command::Completions { shell } => {
+            print!("{}", manual::completions(shell));
+            Ok(())
+        }
+        Command::Man { dir } => {
+            for page in manual::write(&dir)? {
+                println!("{}", page.display());
+            }
+            Ok(())
+        }
     }
 }
 
@@ -87,6 +111,12 @@ fn tell(summary: &Summary, out: &Path, talk: &Talk, json: bool) {
     if json {
         println!("{}", summary.to_json());
     }
+}
+
+/// A unit as given by `--unit`.
+fn length_unit(text: Option<&str>) -> Result<Option<LengthUnit>, DriverError> {
+    let unit = text.map(str::parse::<LengthUnit>).transpose();
+    unit.map_err(|e| DriverError::input(format!("--unit: {e}")))
 }
 
 fn make_particles(flags: &ParticlesFlags) -> Result<(), DriverError> {

@@ -5,6 +5,7 @@ use crate::conditions;
 pub use crate::conditions::PlannedOpening;
 use crate::error::DriverError;
 use crate::estimate;
+use crate::print::length;
 use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
 use crate::{start, supported, timing};
@@ -138,7 +139,7 @@ impl Plan {
 
         let mut warnings = case.vessel.audit.notices.clone();
         let settings = crate::bodies::settings(scene);
-        warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(ToString::to_string));
+        warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(|w| told(case, w)));
         warnings.extend(wall.iter().flat_map(PlannedWall::warnings));
         warnings.extend(shell.iter().flat_map(|shell| shell.warnings(case)));
         if across < 12.0 {
@@ -180,6 +181,20 @@ impl Plan {
             warnings,
             openings,
         })
+    }
+}
+
+/// A warning of the generator, with the opening by its name.
+fn told(case: &Case, warning: &vaso_generation::Warning) -> String {
+    match *warning {
+        vaso_generation::Warning::Unresolved { opening, radius, spacing, needed } => format!(
+            "`{}` has only {:.1} spacings across its radius of {}; its flow needs a spacing of {} or less",
+            case.opening_name(opening),
+            radius / spacing,
+            length(radius),
+            length(needed)
+        ),
+        _ => warning.to_string(),
     }
 }
 

@@ -181,6 +181,17 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
+/// A length \[m\] as people say it, to three digits.
+pub fn length(metres: f64) -> String {
+    let (value, unit) = match metres {
+        x if x >= 1.0 => (x, "m"),
+        x if x >= 1e-3 => (1e3 * x, "mm"),
+        x => (1e6 * x, "um"),
+    };
+    let decimals = (2.0 - value.max(1e-9).log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{value:.decimals$} {unit}")
+}
+
 /// The stages that ran, with what they cost.
 pub fn ledger(ledger: &Ledger, particle_substeps: u64) -> String {
     let total = ledger.total();

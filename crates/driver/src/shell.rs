@@ -2,7 +2,7 @@
 
 use crate::bodies;
 use crate::case::Case;
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
 use crate::plan::Plan;
 use crate::structure;
 use vaso_coupling::{Foot, GhostColumns, ShellWall};
@@ -48,7 +48,8 @@ impl PlannedShell {
     pub(crate) fn new(case: &Case, reference_pressure: f64) -> Result<Option<Self>, DriverError> {
         let scene = &case.scene;
         let (Wall::Shell(wall), Some(blood)) = (&scene.wall, &scene.blood) else { return Ok(None) };
-        let wrong = |e: ShellError| DriverError::input(format!("{}: `wall`: {e}", scene.file.display()));
+        let wrong =
+            |e: ShellError| DriverError::input(problem(scene, "wall", e.to_string(), "", "change its keys"));
         let material = material(wall).map_err(wrong)?;
         let mut numbers = Numbers::new(wall.density, bodies::shell_spacing(scene));
         numbers.damping = match wall.damping {
@@ -119,7 +120,9 @@ impl PlannedShell {
         };
         self.shell(case, plan, wall, body)
             .and_then(|shell| ShellWall::new(shell, plan.numbers.spacing, bodies::support(&case.scene)))
-            .map_err(|e| DriverError::input(format!("{}: `wall`: {e}", case.scene.file.display())))
+            .map_err(|e| {
+                DriverError::input(problem(&case.scene, "wall", e.to_string(), "", "change its keys"))
+            })
     }
 
     fn shell<R: Real>(

@@ -1,7 +1,7 @@
 //! The pressure outlets start from, where a case asks for that of the periodic cycle.
 
 use crate::case::Case;
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
 use crate::plan::PlannedOpening;
 use vaso_boundary::{Condition, Source, Waveform, Windkessel, mean_split};
 
@@ -19,11 +19,8 @@ pub(crate) fn periodic(case: &Case, openings: &mut [PlannedOpening]) -> Result<(
     };
     let Some(first) = openings.iter().find(|o| asks(&o.name)) else { return Ok(()) };
     let wrong = |text: String| {
-        DriverError::input(format!(
-            "{}: `opening.{}.periodic_start`: {text}; give `initial_pressure` instead",
-            case.scene.file.display(),
-            first.name
-        ))
+        let key = format!("opening.{}.periodic_start", first.name);
+        DriverError::input(problem(&case.scene, &key, text, "", "give `initial_pressure` instead"))
     };
     let is_driven = openings.iter().any(|o| matches!(o.condition, Condition::Pressure { .. }));
     let inflow = inflow(openings).filter(|_| !is_driven).ok_or_else(|| {

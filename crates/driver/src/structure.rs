@@ -2,7 +2,7 @@
 
 use crate::bodies;
 use crate::case::Case;
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
 use crate::plan::Plan;
 use glam::DVec3;
 use vaso_boundary::BUFFER_LENGTH;
@@ -53,7 +53,8 @@ impl PlannedWall {
     pub(crate) fn new(case: &Case, reference_pressure: f64) -> Result<Option<Self>, DriverError> {
         let scene = &case.scene;
         let (Wall::Solid(wall), Some(blood)) = (&scene.wall, &scene.blood) else { return Ok(None) };
-        let wrong = |e: SolidError| DriverError::input(format!("{}: `wall`: {e}", scene.file.display()));
+        let wrong =
+            |e: SolidError| DriverError::input(problem(scene, "wall", e.to_string(), "", "change its keys"));
         let material = material(wall).map_err(wrong)?;
         let mut numbers = Numbers::new(wall.density, bodies::wall_spacing(wall, scene.particles.spacing));
         numbers.damping = match wall.damping {
@@ -123,8 +124,9 @@ impl PlannedWall {
         let Wall::Solid(wall) = &case.scene.wall else {
             return Err(DriverError::input("a wall that is planned as a solid is one"));
         };
-        self.solid(case, plan, wall, body)
-            .map_err(|e| DriverError::input(format!("{}: `wall`: {e}", case.scene.file.display())))
+        self.solid(case, plan, wall, body).map_err(|e| {
+            DriverError::input(problem(&case.scene, "wall", e.to_string(), "", "change its keys"))
+        })
     }
 
     fn solid<R: Real>(

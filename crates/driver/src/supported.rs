@@ -2,8 +2,9 @@
 
 use crate::bodies::{shell_settings, shell_spacing, wall_shape, wall_spacing};
 use crate::case::Case;
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
 use crate::plan::PlannedOpening;
+use crate::print::length;
 use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
 use crate::timing;
@@ -25,18 +26,17 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     let (thickness, ends) = wall_shape(scene);
     let reach = 2.0 * scene.numerics.smoothing_length;
     if matches!(scene.wall, Wall::Rigid) && thickness < reach * scene.particles.spacing {
-        problems.push(format!(
-            "{}: `wall.thickness` is {:.3} mm, less than the {reach} spacings that the fluid sees of a rigid wall; leave \
-             it out or make it thicker",
-            scene.file.display(),
-            1e3 * thickness
+        problems.push(problem(
+            scene,
+            "wall.thickness",
+            format!("is thinner than the {reach} spacings that the blood sees of a rigid wall"),
+            format!("at least {}", length(reach * scene.particles.spacing)),
+            "make it thicker, or leave it out",
         ));
     }
     let mut refuse = |key: String, seen: &str, allowed: &str| {
-        problems.push(format!(
-            "{}: `{key}` is \"{seen}\", which this version does not have; allowed: {allowed}",
-            scene.file.display()
-        ));
+        let message = format!("\"{seen}\" is not in this version");
+        problems.push(problem(scene, &key, message, allowed, "take what is allowed, or remove it"));
     };
     let is_elastic = matches!(scene.wall, Wall::Solid(_) | Wall::Shell(_));
     let has_collar = match scene.wall {
@@ -83,12 +83,12 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
         let blood = scene.particles.spacing;
         let own = if is_shell { shell_spacing(scene) } else { wall_spacing(wall, blood) };
         if own > blood * (1.0 + 1e-9) {
-            problems.push(format!(
-                "{}: `wall.spacing` is {:.4} mm, wider than the {:.4} mm of the blood, which would see gaps in the wall; make \
-                 it at most that",
-                scene.file.display(),
-                1e3 * own,
-                1e3 * blood
+            problems.push(problem(
+                scene,
+                "wall.spacing",
+                "is wider than that of the blood, which would see gaps in the wall",
+                format!("at most {}", length(blood)),
+                "make it at most that, or leave it out",
             ));
         }
     }
@@ -119,10 +119,12 @@ pub(crate) struct PlannedBlood {
 /// When there is none.
 pub(crate) fn blood(scene: &Scene) -> Result<PlannedBlood, DriverError> {
     let Some(Blood { density, viscosity }) = scene.blood else {
-        return Err(DriverError::input(format!(
-            "{}: there is no `[blood]`, and this version moves no wall without it; add `[blood]` with \
-             `density` and `viscosity`",
-            scene.file.display()
+        return Err(DriverError::input(problem(
+            scene,
+            "blood",
+            "is missing, and this version moves no wall without it",
+            "a table, which may be empty",
+            "add `[blood]`",
         )));
     };
     let rheology = match viscosity {

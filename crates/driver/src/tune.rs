@@ -1,14 +1,14 @@
 //! `vaso tune`: Windkessel parameters from what a clinic measures, ready to paste.
 
 use crate::case::Case;
-use crate::error::DriverError;
+use crate::error::{DriverError, problem};
 use crate::plan::Plan;
 use crate::start;
 use std::fmt::Write;
 use vaso_boundary::{Split, Target, Tuned};
 
 /// Pascals of a millimetre of mercury.
-const MMHG: f64 = 133.322_387_415;
+pub(crate) const MMHG: f64 = 133.322_387_415;
 
 /// What the outlets of a case are to give.
 pub struct TuneRequest {
@@ -33,8 +33,12 @@ pub fn tune(case: &Case, request: &TuneRequest) -> Result<String, DriverError> {
     let file = case.scene.file.display();
     let plan = Plan::new(case)?;
     let inflow = start::inflow(&plan.openings).ok_or_else(|| {
-        DriverError::input(format!(
-            "{file}: tuning needs one inlet whose `waveform` repeats after `run.period`; the pulse is what sets the compliance"
+        DriverError::input(problem(
+            &case.scene,
+            "run.period",
+            "tuning needs one inlet whose `waveform` repeats: the pulse is what sets the compliance",
+            "one inlet with condition \"velocity\" or \"flow\" and a `waveform`",
+            "give the inlet a waveform, and `run.period` with it",
         ))
     })?;
     let outlets: Vec<_> = plan.openings.iter().filter(|o| o.condition.sets_pressure()).collect();

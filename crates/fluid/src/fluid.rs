@@ -204,7 +204,6 @@ impl<R: Real> Fluid<R> {
             slope: _,
             zone_of: _,
             lattice_sum: _,
-            surplus: _,
             elapsed: _,
             wall_distance: _,
             reach: _,

@@ -9,7 +9,7 @@ use crate::unit::LengthUnit;
 #[non_exhaustive]
 pub enum GeometryError {
     /// The file cannot be opened or read.
-    #[error("cannot read surface \"{}\"", path.display())]
+    #[error("cannot read surface \"{}\": {source}; check the path, and that the file may be read", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -17,7 +17,7 @@ pub enum GeometryError {
         source: std::io::Error,
     },
     /// The file cannot be created or written.
-    #[error("cannot write surface \"{}\"", path.display())]
+    #[error("cannot write surface \"{}\": {source}; name another place", path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -71,7 +71,7 @@ pub enum GeometryError {
         found: String,
     },
     /// The XML of a VTP file is damaged or lacks an element.
-    #[error("\"{}\" is no usable VTP file: {reason}", path.display())]
+    #[error("\"{}\" is no usable VTP file: {reason}; export it again", path.display())]
     Vtp {
         /// The file.
         path: PathBuf,
@@ -100,13 +100,16 @@ pub enum GeometryError {
         compressor: String,
     },
     /// The file holds no triangle.
-    #[error("\"{}\" has zero triangles", path.display())]
+    #[error("\"{}\" has zero triangles; export the surface, not its points or lines", path.display())]
     EmptyFile {
         /// The file.
         path: PathBuf,
     },
     /// A coordinate of the file is not a finite number.
-    #[error("triangle {triangle} of \"{}\" has a coordinate that is not finite ({value})", path.display())]
+    #[error(
+        "triangle {triangle} of \"{}\" has a coordinate that is not finite ({value}); mend or remove it where the surface was made",
+        path.display()
+    )]
     NotFiniteInFile {
         /// The file.
         path: PathBuf,

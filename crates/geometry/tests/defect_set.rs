@@ -218,6 +218,9 @@ fn damaged_files_are_refused_by_name() {
     assert!(matches!(empty, GeometryError::EmptyFile { .. }));
     assert_eq!(
         empty.to_string(),
-        format!("\"{}\" has zero triangles", folder.join("20_empty.stl").display())
+        format!(
+            "\"{}\" has zero triangles; export the surface, not its points or lines",
+            folder.join("20_empty.stl").display()
+        )
     );
 }

@@ -2,6 +2,7 @@
 
 use crate::color::viridis;
 use crate::html::escape;
+use crate::picture::principal_axes;
 use crate::scale::{number, ticks};
 use glam::{DVec2, DVec3};
 use std::fmt::Write;
@@ -18,6 +19,13 @@ pub struct Plane {
 }
 
 impl Plane {
+    /// The planes that show most of a cloud of points \[m\]: from the front, and the same from the side.
+    pub fn facing(points: &[DVec3]) -> [Self; 2] {
+        let [longest, second, least] = principal_axes(points);
+        let origin = points.iter().copied().sum::<DVec3>() / points.len().max(1) as f64;
+        [second, least].map(|up| Self { origin, right: longest, up })
+    }
+
     /// The plane through `origin` \[m\] at right angles to `normal`, which points to the eye; its axes are chosen.
     pub fn across(origin: DVec3, normal: DVec3) -> Self {
         let (right, up) = normal.normalize_or(DVec3::Z).any_orthonormal_pair();
@@ -49,6 +57,7 @@ pub struct Pen {
 enum Mark {
     Line(Vec<DVec2>, Pen),
     Dot { center: DVec2, radius: f64, color: [u8; 3] },
+    Label { at: DVec2, text: String, color: [u8; 3] },
 }
 
 /// A drawing on a plane; what is nearer to the eye covers what is farther.
@@ -87,6 +96,12 @@ impl Drawing {
         self.marks.push((self.plane.height(center), mark));
     }
 
+    /// Writes `text` at a point \[m\], in front of everything.
+    pub fn label(&mut self, at: DVec3, text: &str, color: [u8; 3]) {
+        let mark = Mark::Label { at: self.plane.project(at), text: text.to_owned(), color };
+        self.marks.push((f64::INFINITY, mark));
+    }
+
     /// Lower left and upper right corner of what is drawn \[m\].
     fn bounds(&self) -> (DVec2, DVec2) {
         let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -94,6 +109,7 @@ impl Drawing {
         self.marks.iter().fold(start, |box_, (_, mark)| match mark {
             Mark::Line(points, _) => points.iter().fold(box_, |b, x| add(b, *x, 0.0)),
             Mark::Dot { center, radius, .. } => add(box_, *center, *radius),
+            Mark::Label { at, .. } => add(box_, *at, 0.0),
         })
     }
 
@@ -112,7 +128,7 @@ impl Drawing {
         };
         let mut order: Vec<usize> = (0..self.marks.len()).collect();
         order.sort_by(|&a, &b| self.marks[a].0.total_cmp(&self.marks[b].0).then(a.cmp(&b)));
-        let heights = || self.marks.iter().map(|m| m.0);
+        let heights = || self.marks.iter().map(|m| m.0).filter(|height| height.is_finite());
         let (far, near) =
             (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
         // Drawings of one plane have no depth to show.
@@ -139,6 +155,19 @@ impl Drawing {
                         c.x,
                         c.y,
                         radius * scale
+                    );
+                }
+                Mark::Label { at, text, color: [r, g, b] } => {
+                    let at = place(*at);
+                    // Towards the middle, so that it stays within the drawing; with a halo, as it stands before lines.
+                    let (anchor, shift) = if at.x < 0.5 * width { ("start", 6.0) } else { ("end", -6.0) };
+                    let _ = write!(
+                        svg,
+                        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" fill=\"#{r:02x}{g:02x}{b:02x}\" \
+                         stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"600\">{}</text>",
+                        at.x + shift,
+                        at.y + 4.0,
+                        escape(text)
                     );
                 }
             }
@@ -225,6 +254,17 @@ mod tests {
         let x = plane.origin + 2.0 * plane.right - 0.5 * plane.up + 7.0 * DVec3::new(0.0, 0.6, 0.8);
         assert!(plane.project(x).distance(DVec2::new(2.0, -0.5)) < 1e-12);
         assert!((plane.height(x) - 7.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn labels_stand_in_front_and_what_they_say_is_no_markup() {
+        let mut drawing = Drawing::new(Plane { origin: DVec3::ZERO, right: DVec3::X, up: DVec3::Y });
+        drawing.label(DVec3::ZERO, "a<b", [1, 2, 3]);
+        drawing.line(&[DVec3::ZERO, DVec3::new(5e-3, 1e-3, 1e-3)], PEN);
+        let svg = sheet(&[("one", &drawing)], 1, 300, "a line with a name", true);
+        let (line, label) = (svg.find("<path"), svg.find("a&lt;b"));
+        assert!(line.zip(label).is_some_and(|(line, label)| line < label), "{svg}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     }
 
     #[test]

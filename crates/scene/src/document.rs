@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::error::Problem;
+use crate::error::{Excerpt, Problem};
 use crate::files::Files;
 
 /// Where a node was written.
@@ -118,10 +118,20 @@ impl Source {
             Spot::File(span) => {
                 let (line, column) = self.line_and_column(span.start);
                 (problem.line, problem.column) = (Some(line), Some(column));
-                problem.seen = shortened(self.text.get(span.clone()).unwrap_or_default());
+                let written = self.text.get(span.clone()).unwrap_or_default();
+                problem.seen = shortened(written);
+                // What goes on in other lines is marked to the end of its first.
+                let marked = written.lines().next().unwrap_or_default().trim_end().chars().count();
+                problem.excerpt = Some(Excerpt { line: self.line(line).to_owned(), marked });
             }
         }
         problem
+    }
+
+    /// The text of a line, counted from 1.
+    fn line(&self, number: usize) -> &str {
+        let start = self.lines.get(number - 1).copied().unwrap_or(self.text.len());
+        self.text[start..].lines().next().unwrap_or_default()
     }
 
     /// Line and column, both from 1, the column in characters.

@@ -15,6 +15,29 @@ pub(crate) struct Key {
     pub(crate) meaning: &'static str,
 }
 
+impl Key {
+    /// Its name in its table.
+    pub(crate) fn name(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or(self.path, |(_, name)| name)
+    }
+
+    /// Path of its table; empty for the root.
+    pub(crate) fn parent(&self) -> &'static str {
+        self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
+    }
+}
+
+/// Names of keys, each once, in their order.
+pub(crate) fn names(keys: &[&Key]) -> Vec<&'static str> {
+    let mut names = Vec::new();
+    for name in keys.iter().map(|key| key.name()) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
 /// A sibling key holds one of these words.
 #[derive(Debug)]
 pub(crate) struct When {
@@ -104,6 +127,16 @@ impl Range {
             Low::Excluding(low) => value > low,
         };
         value.is_finite() && above && self.high.is_none_or(|high| value <= high)
+    }
+
+    /// The lower bound and whether it is included, and the upper bound, which always is.
+    pub(crate) fn bounds(self) -> (Option<(f64, bool)>, Option<f64>) {
+        let low = match self.low {
+            Low::None => None,
+            Low::Including(low) => Some((low, true)),
+            Low::Excluding(low) => Some((low, false)),
+        };
+        (low, self.high)
     }
 
     /// The range in words, such as `above 0 and at most 1`; empty for any value.

@@ -7,6 +7,7 @@ mod document;
 mod drive;
 mod error;
 mod files;
+mod json_schema;
 mod kind;
 pub mod material;
 pub mod opening;
@@ -21,7 +22,8 @@ mod table;
 mod waveform;
 mod words;
 
-pub use error::{Problem, SceneError};
+pub use error::{Excerpt, Problem, SceneError};
+pub use json_schema::case_schema;
 pub use material::{Blood, OpenEnds, Wall, WallBody};
 pub use opening::{Condition, Coupling, Drive, Opening, Profile};
 pub use reference::case_reference;

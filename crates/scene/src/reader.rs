@@ -7,7 +7,7 @@ use vaso_units::nearest;
 
 use crate::document::{Content, Entry, Node, Source, Spot};
 use crate::error::Problem;
-use crate::kind::{Key, Kind, Presence, When};
+use crate::kind::{Key, Kind, Presence, When, names};
 use crate::plain::{is_name, units_in_use};
 use crate::schema::KEYS;
 use crate::section::{Field, Section, Value};
@@ -33,13 +33,13 @@ impl Reader<'_> {
         };
         let mut section =
             Section { path: path.into(), shown, spot: node.spot.clone(), fields: BTreeMap::new() };
-        let keys: Vec<&Key> = KEYS.iter().filter(|key| parent(key) == path).collect();
+        let keys: Vec<&Key> = KEYS.iter().filter(|key| key.parent() == path).collect();
         for entry in entries {
             let value = self.entry(&section, &keys, entries, entry);
             section.fields.insert(entry.key.clone(), Field { value, spot: Some(entry.node.spot.clone()) });
         }
         for key in
-            keys.iter().filter(|key| !section.fields.contains_key(name(key))).copied().collect::<Vec<_>>()
+            keys.iter().filter(|key| !section.fields.contains_key(key.name())).copied().collect::<Vec<_>>()
         {
             if applies(key, &keys, entries) == Some(true) {
                 self.absent(&mut section, key);
@@ -50,7 +50,7 @@ impl Reader<'_> {
 
     fn entry(&mut self, section: &Section, keys: &[&Key], entries: &[Entry], entry: &Entry) -> Value {
         let shown = section.key(&entry.key);
-        let same_name: Vec<&&Key> = keys.iter().filter(|key| name(key) == entry.key).collect();
+        let same_name: Vec<&&Key> = keys.iter().filter(|key| key.name() == entry.key).collect();
         if same_name.is_empty() {
             self.unknown(section, keys, entry);
             return Value::Bad;
@@ -65,12 +65,11 @@ impl Reader<'_> {
     }
 
     fn unknown(&mut self, section: &Section, keys: &[&Key], entry: &Entry) {
-        let mut names: Vec<&str> = keys.iter().map(|key| name(key)).collect();
-        names.dedup();
-        let elsewhere = KEYS.iter().find(|key| name(key) == entry.key && !parent(key).is_empty());
+        let names = names(keys);
+        let elsewhere = KEYS.iter().find(|key| key.name() == entry.key && !key.parent().is_empty());
         let advice = match (nearest(&entry.key, names.iter().copied()), elsewhere) {
             (Some(near), _) => format!("did you mean `{near}`?"),
-            (None, Some(key)) => format!("`{}` belongs in `{}`", entry.key, parent(key)),
+            (None, Some(key)) => format!("`{}` belongs in `{}`", entry.key, key.parent()),
             (None, None) => "remove it".into(),
         };
         let allowed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
@@ -114,9 +113,9 @@ impl Reader<'_> {
         match key.presence {
             Presence::Optional(_) => {}
             Presence::Required => {
-                let problem = self.source.problem(&section.spot, &section.key(name(key)), "is missing");
+                let problem = self.source.problem(&section.spot, &section.key(key.name()), "is missing");
                 let advice = match &key.kind {
-                    Kind::Table => format!("add `[{}]`", section.key(name(key))),
+                    Kind::Table => format!("add `[{}]`", section.key(key.name())),
                     kind => kind.dimension().map_or_else(String::new, units_in_use),
                 };
                 self.problems.push(Problem {
@@ -127,8 +126,8 @@ impl Reader<'_> {
                 });
             }
             Presence::Default(text) => {
-                let value = self.value(key, &section.key(name(key)), &default_node(&key.kind, text));
-                section.fields.insert(name(key).to_owned(), Field { value, spot: None });
+                let value = self.value(key, &section.key(key.name()), &default_node(&key.kind, text));
+                section.fields.insert(key.name().to_owned(), Field { value, spot: None });
             }
         }
     }
@@ -169,14 +168,6 @@ impl Reader<'_> {
     }
 }
 
-fn name(key: &Key) -> &'static str {
-    key.path.rsplit_once('.').map_or(key.path, |(_, name)| name)
-}
-
-fn parent(key: &Key) -> &'static str {
-    key.path.rsplit_once('.').map_or("", |(parent, _)| parent)
-}
-
 /// Whether a key belongs into the table; `None` while a key that decides it is missing or wrong.
 fn applies(key: &Key, keys: &[&Key], entries: &[Entry]) -> Option<bool> {
     let answers: Vec<Option<bool>> = key.when.iter().map(|when| holds(when, keys, entries)).collect();
@@ -193,7 +184,7 @@ fn holds(when: &When, keys: &[&Key], entries: &[Entry]) -> Option<bool> {
 
 /// The word a deciding key holds, its default where it is not written.
 fn governing_word<'a>(governing: &str, keys: &[&Key], entries: &'a [Entry]) -> Option<&'a str> {
-    let key = keys.iter().find(|key| name(key) == governing)?;
+    let key = keys.iter().find(|key| key.name() == governing)?;
     match (entries.iter().find(|entry| entry.key == governing), &key.kind, key.presence) {
         (Some(Entry { node: Node { content: Content::Text(word), .. }, .. }), Kind::Choice(words), _) => {
             words.contains(&word.as_str()).then_some(word)

@@ -14,6 +14,10 @@ A number with a dimension is a string with its unit, such as `\"0.5 mm\"` or `\"
 will do. Numbers without dimension are written bare. Pressures are gauge. Points are in the unit of the surface. Paths
 start from the folder of the file. A key that is not listed here is an error.
 
+Editors complete and check the file by [case.schema.json](case.schema.json), which `vaso schema` prints and `vaso new` puts beside
+a case. The first line `#:schema ./case.schema.json` names it to those that speak through Taplo, such as Even Better TOML in VS
+Code; elsewhere, tie the name `case.toml` to it in the settings of the language server.
+
 `--set key=value` overrides a key: `--set particles.spacing=\"0.4 mm\"`, `--set opening.ica.compliance=\"1e-9 m^3/Pa\"`.
 An opening or probe is addressed by its name or its number from 0. Where an override changes a model, generator or condition,
 keys of the file that have no meaning with the new one are passed over.
@@ -34,7 +38,7 @@ pub fn case_reference() -> String {
     for table in
         KEYS.iter().filter(|key| matches!(key.kind, Kind::Table | Kind::Tables | Kind::QuantityOrTable(..)))
     {
-        let keys: Vec<&Key> = KEYS.iter().filter(|key| is_child(key, table)).collect();
+        let keys: Vec<&Key> = KEYS.iter().filter(|key| key.parent() == table.path).collect();
         text.push_str(&heading(table));
         text.push_str("\n| key | value | units | default | meaning |\n|---|---|---|---|---|\n");
         for key in keys {
@@ -42,10 +46,6 @@ pub fn case_reference() -> String {
         }
     }
     text
-}
-
-fn is_child(key: &Key, table: &Key) -> bool {
-    key.path.rsplit_once('.').is_some_and(|(parent, _)| parent == table.path)
 }
 
 fn heading(table: &Key) -> String {

@@ -353,7 +353,8 @@ fn bad_files_are_refused_for_exactly_the_reasons_they_list() {
 fn a_problem_prints_as_a_block() {
     let error = refused("tests/bad/cycles.toml", &[]);
     let block = "tests/bad/cycles.toml:7:23: `blood.viscosity.model`: is not one of the words allowed
-  seen     \"careau\"
+  7 | viscosity = { model = \"careau\" }
+    |                       ^^^^^^^^
   allowed  \"newtonian\", \"carreau\", \"carreau-yasuda\", \"casson\", \"power-law\"
   advice   did you mean \"carreau\"?
 ";
@@ -377,7 +378,9 @@ fn later_problems_name_their_place_too() {
     assert_eq!(place("wall.model"), (Some(18), Some(9), None, "\"rigid\"".into()));
     assert_eq!(place("probe.p.at"), (None, None, None, String::new()));
     let text = scene.problem("opening.cca.near", "is far from every opening").to_string();
-    let start = "tests/good/contract.toml:22:8: `opening.cca.near`: is far from every opening\n  seen     [0.0, 0.0, -20.0]";
+    let start = "tests/good/contract.toml:22:8: `opening.cca.near`: is far from every opening
+  22 | near = [0.0, 0.0, -20.0]         # any point near the opening, in the unit of the surface
+     |        ^^^^^^^^^^^^^^^^^";
     assert_eq!(text, start);
 }
 

@@ -15,6 +15,7 @@ mod view;
 pub use canvas::Picture;
 pub use figure::render_vessel_png;
 pub use surface::draw_surface;
+pub(crate) use view::principal_axes;
 
 use crate::ReportError;
 use crate::scale::ticks;

@@ -79,7 +79,7 @@ impl View {
 
 /// Unit axes of the cloud from the longest to the least, right-handed, each with its largest component
 /// positive as far as handedness allows.
-fn principal_axes(position: &[DVec3]) -> [DVec3; 3] {
+pub(crate) fn principal_axes(position: &[DVec3]) -> [DVec3; 3] {
     let finite = || position.iter().copied().filter(|x| x.is_finite());
     let count = finite().count().max(1) as f64;
     let mean = finite().sum::<DVec3>() / count;
