@@ -82,7 +82,12 @@ impl DriverError {
         use vaso_io::IoError;
         match self {
             Self::Scene(_) | Self::Geometry { .. } | Self::Input { .. } => 2,
-            Self::Io(IoError::Finished { .. } | IoError::Foreign { .. } | IoError::Exists { .. }) => 2,
+            Self::Io(
+                IoError::Finished { .. }
+                | IoError::Resumable { .. }
+                | IoError::Foreign { .. }
+                | IoError::Exists { .. },
+            ) => 2,
             Self::Io(_) | Self::Report(_) | Self::Metrics(_) | Self::Diverged(_) => 1,
             Self::Interrupted { .. } => 130,
         }

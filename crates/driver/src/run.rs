@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use vaso_coupling::{MovingWall, ShellWall};
 use vaso_fluid::Real;
-use vaso_io::{EndReason, IoError, OutputDir, SeriesWriter, Status, Summary};
+use vaso_io::{EndReason, OutputDir, SeriesWriter, Status, Summary};
 use vaso_scene::{Precision, Wall};
 use vaso_solid::Solid;
 
@@ -61,9 +61,7 @@ pub fn run(
     talk: &Talk,
 ) -> Result<Summary, DriverError> {
     // Asked again when the folder is taken; here it saves making particles for nothing.
-    if !force && Summary::read(&out.join("summary.json")).is_ok_and(|s| s.status == Status::Completed) {
-        return Err(IoError::Finished { path: out.to_owned() }.into());
-    }
+    OutputDir::keep_run(out, force)?;
     go(case, plan, out, Start::Anew { force }, stop, talk)
 }
 

@@ -85,6 +85,15 @@ pub enum IoError {
         /// Output folder.
         path: PathBuf,
     },
+    /// The output folder holds a run that can go on.
+    #[error(
+        "{path:?} holds a run that is not finished; `vaso resume` goes on with it, `--force` writes over it, `--out` takes another \
+         folder"
+    )]
+    Resumable {
+        /// Output folder.
+        path: PathBuf,
+    },
     /// A file is in the way of a result.
     #[error("{path:?} exists; pass `--force` to write over it or choose another name or folder")]
     Exists {

@@ -26,19 +26,16 @@ impl OutputDir {
     /// Makes the folder ready for a new run: creates it if need be, removes what an earlier run of ours left
     /// so that two runs do not mix, and writes a `summary.json` with the status `running`.
     ///
-    /// A folder with a finished run is refused unless `force` is given; so is one with files of our names but
-    /// no summary, as they may be somebody's own. Files of other names stay, always.
+    /// A folder with a finished run, or one that can be resumed, is refused unless `force` is given; so is one with files of our names
+    /// but no summary, as they may be somebody's own. Files of other names stay, always.
     ///
     /// # Errors
-    /// [`IoError::Finished`], [`IoError::Foreign`], or [`IoError::System`] when the folder cannot be made or
+    /// [`IoError::Finished`], [`IoError::Resumable`], [`IoError::Foreign`], or [`IoError::System`] when the folder cannot be made or
     /// written. Nothing has been written or removed then.
     pub fn prepare(path: impl Into<PathBuf>, force: bool) -> Result<Self, IoError> {
         let output = Self::open(path)?;
-        let summary = output.file("summary.json");
-        match Summary::read(&summary) {
-            Ok(found) if found.status == Status::Completed && !force => {
-                return Err(IoError::Finished { path: output.path });
-            }
+        Self::keep_run(&output.path, force)?;
+        match Summary::read(&output.file("summary.json")) {
             Ok(_) => {}
             Err(_) if force => {}
             Err(_) => {
@@ -56,6 +53,23 @@ impl OutputDir {
         }
         output.claim()?;
         Ok(output)
+    }
+
+    /// Refuses a folder whose run is finished or can be resumed, unless `force` is given.
+    ///
+    /// # Errors
+    /// [`IoError::Finished`] or [`IoError::Resumable`].
+    pub fn keep_run(path: &Path, force: bool) -> Result<(), IoError> {
+        let Ok(found) = Summary::read(&path.join("summary.json")) else { return Ok(()) };
+        match found.status {
+            _ if force => Ok(()),
+            Status::Completed => Err(IoError::Finished { path: path.to_owned() }),
+            Status::Running | Status::Interrupted if path.join("checkpoint.h5").exists() => {
+                Err(IoError::Resumable { path: path.to_owned() })
+            }
+            // What broke down is run again after a change of the case.
+            _ => Ok(()),
+        }
     }
 
     /// Refuses files that are in the way of results, before any work is done for them.
@@ -152,6 +166,13 @@ mod tests {
             fs::write(out.file(name), "x").unwrap();
         }
         fs::create_dir(out.file("report.html")).unwrap();
+        fs::write(out.file("checkpoint.h5"), "x").unwrap();
+        let error = OutputDir::prepare(folder.path(), false).unwrap_err();
+        assert!(
+            matches!(error, IoError::Resumable { .. }) && error.to_string().contains("vaso resume"),
+            "{error}"
+        );
+        fs::remove_file(out.file("checkpoint.h5")).unwrap();
         OutputDir::prepare(folder.path(), false).unwrap();
         assert_eq!(
             names(folder.path()),

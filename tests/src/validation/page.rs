@@ -154,7 +154,8 @@ fn judged(figure: &Figure) -> (String, &'static str) {
             if is_missed(figure) { "**missed**" } else { "met" },
         ),
         Tolerance::Missed { asked, held } => {
-            (format!("{} (held at {})", bound(asked), bound(held)), "**missed**")
+            let met = if is_missed(figure) { "**missed**" } else { "met" };
+            (format!("{} (held at {})", bound(asked), bound(held)), met)
         }
     }
 }
