@@ -62,6 +62,10 @@ mod tests {
         near = [0, 0, 0]
         condition = \"velocity\"
         waveform = \"in.csv\"
+        [[opening]]
+        name = \"out\"
+        near = [0, 0, 1]
+        condition = \"pressure\"
         [run]
         period = \"1 s\"
         cycles = 2

@@ -125,7 +125,9 @@ fn value(kind: &Kind, path: &str) -> Value {
             if let Some(high) = high {
                 value["maximum"] = high.into();
             }
-            value
+            // Also as text, for the sake of "49 %"; its range is seen to when the case is read.
+            let text = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*%?\s*$";
+            json!({ "anyOf": [value, { "type": "string", "pattern": text }] })
         }
         Kind::Quantity(..) => quantity(),
         Kind::QuantityOr(word, ..) => json!({ "anyOf": [{ "enum": [word] }, quantity()] }),

@@ -125,7 +125,7 @@ mod tests {
         assert_eq!(unit, LengthUnit::Centimetre);
         assert!(reason.contains("IN DOUBT, in mm") && reason.contains("--unit mm"), "{reason}");
         assert_eq!(told(1.7, 80.0).0, LengthUnit::Millimetre);
-        let text = guessed(0.1).expect_err("an opening of 0.1 mm, 1 mm or 10 cm");
+        let text = guessed(0.04).expect_err("an opening of 0.04 mm, 0.4 mm or 4 cm");
         assert!(text.contains("in no unit") && text.contains("--unit"), "{text}");
     }
 }
