@@ -61,14 +61,17 @@ impl OutputDir {
     /// [`IoError::Finished`] or [`IoError::Resumable`].
     pub fn keep_run(path: &Path, force: bool) -> Result<(), IoError> {
         let Ok(found) = Summary::read(&path.join("summary.json")) else { return Ok(()) };
-        match found.status {
-            _ if force => Ok(()),
-            Status::Completed => Err(IoError::Finished { path: path.to_owned() }),
-            Status::Running | Status::Interrupted if path.join("checkpoint.h5").exists() => {
-                Err(IoError::Resumable { path: path.to_owned() })
-            }
-            // What broke down is run again after a change of the case.
-            _ => Ok(()),
+        let is_there = |name: &str| path.join(name).exists();
+        // What diverged is run again after a change of the case; what a full disk ended is not.
+        let has_diverged = found.status == Status::Failed && is_there("failure.vtkhdf");
+        if force {
+            Ok(())
+        } else if found.status == Status::Completed {
+            Err(IoError::Finished { path: path.to_owned() })
+        } else if is_there("checkpoint.h5") && !has_diverged {
+            Err(IoError::Resumable { path: path.to_owned() })
+        } else {
+            Ok(())
         }
     }
 
@@ -172,7 +175,10 @@ mod tests {
             matches!(error, IoError::Resumable { .. }) && error.to_string().contains("vaso resume"),
             "{error}"
         );
-        fs::remove_file(out.file("checkpoint.h5")).unwrap();
+        // A full disk leaves a run that can go on, a flow that diverged does not.
+        Summary { status: Status::Failed, ..Summary::default() }.write(&out.file("summary.json")).unwrap();
+        assert!(matches!(OutputDir::prepare(folder.path(), false), Err(IoError::Resumable { .. })));
+        fs::write(out.file("failure.vtkhdf"), "x").unwrap();
         OutputDir::prepare(folder.path(), false).unwrap();
         assert_eq!(
             names(folder.path()),

@@ -38,16 +38,17 @@ pub fn save(results: &Results) {
 /// What nothing on the page shows.
 const LIMITS: &str = "\
 - **Walls that move.** All of this is rigid.
-- **Vessels of persons.** The geometry here is round pipes, one bifurcation and one nozzle. What a surface from a scanner
-  adds (facets, tilted caps, side branches a few spacings wide) shows in `tests/tests/carotid.rs`, against no measurement.
-- **Turbulence.** The highest Reynolds number is 1900, at the peak of a beat. There is no turbulence model, and no case in
-  which the flow becomes turbulent.
+- **Vessels of persons.** All but one of what has been run are round pipes and a bifurcation made from numbers. The aorta of a person
+  is held against what its outlets have to reach, the flow within it against no measurement.
+- **Turbulence.** There is no turbulence model. At the peak of its beat the aorta has a Reynolds number of 6700, at which its jet
+  would be turbulent; no figure here shows what is missed by that.
 - **Spacings other than these.** Errors are those of ten to twenty particles across. A branch four particles wide has none
   of them.
 - **Wall shear stress on a wall that is not straight.** On exact velocities it is tested in `crates/metrics`; out of a run
   only in a pipe.
 - **Long runs.** Three seconds and two beats at most. A slow drift of the number of particles would not show.
-- **Pressure far below the reference.** Where a flow is slowed down hard the fluid thins; `svfsi-pipe` shows by how much.
+- **Pressure far below the reference.** Where a flow is slowed down hard the fluid thins unless two switches are set; `svfsi-pipe` has them
+  set.
 - **Outlets as a person has them.** That a Windkessel is solved exactly says nothing about its parameters.
 - **Parts that agree by construction.** The pressure at a single outlet model is its own equation under the flow that
   leaves, and the flow at a velocity inlet is imposed: these figures hold the coupling, not the flow in between.

@@ -23,7 +23,7 @@ use vaso_geometry::{LengthUnit, Vessel};
 use vaso_io::{CheckReport, write_whole};
 use vaso_scene::Scene;
 
-/// Speed of pulse waves in the vessels behind the outlets \[m/s\], as `vaso tune` takes it.
+/// Speed of pulse waves in the vessels behind the outlets \[m/s\], the default of `vaso tune`.
 const WAVE_SPEED: f64 = 7.0;
 /// Density of the blood \[kg/m^3\].
 const DENSITY: f64 = 1060.0;
