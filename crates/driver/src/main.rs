@@ -6,6 +6,7 @@ mod manual;
 
 use clap::Parser;
 use flags::{Cli, Command, Common, ParticlesFlags};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -31,9 +32,9 @@ fn execute(command: Command) -> Result<(), DriverError> {
         Command::New(flags) => {
             let made = new::new(&flags.dir, &flags.surface, length_unit(flags.unit.as_deref())?)?;
             if flags.json {
-                println!("{}", made.report.to_json());
+                put(made.report.to_json() + "\n")?;
             } else if !flags.quiet {
-                print!("{}", made.text);
+                put(made.text)?;
             }
             Ok(())
         }
@@ -47,9 +48,9 @@ fn execute(command: Command) -> Result<(), DriverError> {
                 check::case(&common.case, &set)?
             };
             if common.json {
-                println!("{}", checked.report.to_json());
+                put(checked.report.to_json() + "\n")?;
             } else if !common.quiet {
-                print!("{}", checked.text);
+                put(checked.text)?;
             }
             Ok(())
         }
@@ -61,46 +62,34 @@ fn execute(command: Command) -> Result<(), DriverError> {
             let out = out_folder(&common, &case);
             let stop = stop_on_interrupt();
             let summary = run::run(&case, &plan, &out, force, &stop, &talk(&common))?;
-            tell(&summary, &out, &talk(&common), common.json);
-            Ok(())
+            tell(&summary, &out, &talk(&common), common.json)
         }
         Command::Resume { out, threads, quiet, json } => {
             set_threads(threads)?;
             let talk = Talk { quiet };
             let summary = resume::resume(&out, &stop_on_interrupt(), &talk)?;
-            tell(&summary, &out, &talk, json);
-            Ok(())
+            tell(&summary, &out, &talk, json)
         }
         Command::Tune(flags) => {
             set_threads(flags.common.threads)?;
             let case = Case::load(&flags.common.case, &flags.common.set)?;
-            print!("{}", tune::tune(&case, &flags.request())?);
-            Ok(())
+            put(tune::tune(&case, &flags.request())?)
         }
         Command::Report { out } => {
             let file = vaso_report::write_report(&out)?;
-            println!("{}", file.display());
-            Ok(())
+            put(format!("{}\n", file.display()))
         }
-        Command::Schema => {
-            print!("{}", vaso_scene::case_schema());
-            Ok(())
-        }
-        Command::Completions { shell } => {
-            print!("{}", manual::completions(shell));
-            Ok(())
-        }
+        Command::Schema => put(vaso_scene::case_schema()),
+        Command::Completions { shell } => put(manual::completions(shell)),
         Command::Man { dir } => {
-            for page in manual::write(&dir)? {
-                println!("{}", page.display());
-            }
-            Ok(())
+            let pages = manual::write(&dir)?;
+            put(pages.iter().map(|page| format!("{}\n", page.display())).collect::<String>())
         }
     }
 }
 
 /// Says what a run came to.
-fn tell(summary: &Summary, out: &Path, talk: &Talk, json: bool) {
+fn tell(summary: &Summary, out: &Path, talk: &Talk, json: bool) -> Result<(), DriverError> {
     talk.say(&format!(
         "done     {:.4} s of flow in {:.1} s · {:.2} M particle steps/s · report {}",
         summary.time_s,
@@ -108,8 +97,17 @@ fn tell(summary: &Summary, out: &Path, talk: &Talk, json: bool) {
         1e-6 * summary.particle_substeps_per_s,
         out.join("report.html").display()
     ));
-    if json {
-        println!("{}", summary.to_json());
+    if json { put(summary.to_json() + "\n") } else { Ok(()) }
+}
+
+/// Writes to standard output. A reader that has seen enough and is gone, as `head` is, is no error.
+fn put(text: impl AsRef<str>) -> Result<(), DriverError> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_ref().as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(DriverError::input(format!("standard output: {e}; give it a place that can be written")))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -143,10 +141,7 @@ fn make_particles(flags: &ParticlesFlags) -> Result<(), DriverError> {
             particles::particles(&case, &job, &out, &talk)?.to_json()
         }
     };
-    if common.json {
-        println!("{answer}");
-    }
-    Ok(())
+    if common.json { put(answer + "\n") } else { Ok(()) }
 }
 
 fn talk(common: &Common) -> Talk {

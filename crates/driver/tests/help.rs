@@ -5,7 +5,7 @@
 use glam::DVec3;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use vaso_geometry::{shapes, write_stl};
 
 fn help(command: Option<&str>) -> String {
@@ -111,4 +111,18 @@ fn nothing_is_coloured_where_no_terminal_is() {
         let bytes = [output.stdout, output.stderr].concat();
         assert!(!bytes.contains(&0x1b), "{arguments:?}: {}", String::from_utf8_lossy(&bytes));
     }
+}
+
+/// As `vaso schema | head` does.
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let mut vaso = Command::new(env!("CARGO_BIN_EXE_vaso"))
+        .arg("schema")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program can be started");
+    drop(vaso.stdout.take());
+    let output = vaso.wait_with_output().expect("it ends");
+    assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
 }
