@@ -52,6 +52,14 @@ figures:
 validation *cases:
     cargo run --release -p vaso-tests --example validation -- {{cases}}
 
+# The page of the hard cases, with those named run anew (`all` for all, five minutes on two cores).
+stability *cases:
+    cargo run --release -p vaso-tests --example stability -- {{cases}}
+
+# What accuracy costs in time, with the studies named run anew (`all` for all, a quarter of an hour on two cores).
+accuracy *studies:
+    cargo run --release -p vaso-tests --example accuracy -- {{studies}}
+
 # The page of the generators with its pictures; some minutes on two cores.
 generators:
     cargo run --release -p vaso-tests --example generators

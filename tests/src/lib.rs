@@ -1,8 +1,10 @@
 //! Tools of the tests that span crates: cases run through the library, and flows compared with formulas.
 
+pub mod accuracy;
 pub mod pipe;
 pub mod poiseuille;
 pub mod shear_thinning;
+pub mod stability;
 pub mod validation;
 
 use std::path::PathBuf;

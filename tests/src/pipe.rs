@@ -83,6 +83,16 @@ impl Pipe {
         self.diameter / self.across
     }
 
+    /// Value of the waveform at `t` \[s\], in straight lines between its rows; that of the last row after its end.
+    pub fn inflow_at(&self, t: f64) -> f64 {
+        let next = self.inflow.partition_point(|row| row[0] <= t);
+        match (self.inflow.get(next.wrapping_sub(1)), self.inflow.get(next)) {
+            (Some([t0, a]), Some([t1, b])) => a + (b - a) * (t - t0) / (t1 - t0),
+            (Some([_, value]), None) | (None, Some([_, value])) => *value,
+            (None, None) => 0.0,
+        }
+    }
+
     /// Distance behind the inlet and from the axis \[m\] of a point.
     pub fn place(&self, x: DVec3) -> (f64, f64) {
         let along = self.axis.normalize();

@@ -14,6 +14,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("particles", &[]),
     ("kernels", &[]),
+    ("study", &[]),
     ("scene", &["units"]),
     ("generation", &["geometry", "kernels", "particles"]),
     ("fluid", &["kernels", "particles"]),
@@ -41,6 +42,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
             "shell",
             "metrics",
             "report",
+            "study",
         ],
     ),
 ];

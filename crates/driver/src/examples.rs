@@ -43,6 +43,16 @@ Examples:
 
 A run that is finished stays as it is.";
 
+pub(crate) const STUDY: &str = "\
+Examples:
+  vaso study my-case --out study
+  vaso study my-case --out spacings --ladders spacing --spacings \"1.2 mm,0.9 mm\"
+  vaso study my-case --out smoothing --ladders spacing --vary \"numerics.smoothing_length=1.2|1.4\"
+  vaso study my-case --out finest --budget \"20 s\"
+
+Errors are counted from expect.toml beside the case where there is one, else from what the finest runs converge to. Runs that break
+down are findings, too.";
+
 pub(crate) const TUNE: &str = "\
 Examples:
   vaso tune pulsing-case --systolic \"120 mmHg\" --diastolic \"80 mmHg\"

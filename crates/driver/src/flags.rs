@@ -8,6 +8,7 @@ use vaso_boundary::Split;
 use vaso_driver::DriverError;
 use vaso_driver::extrusion::ExtrusionRequest;
 use vaso_driver::particles::{ParticlesJob, Wanted};
+use vaso_driver::study::{Goal, StudyRequest, Wish};
 use vaso_driver::tune::TuneRequest;
 use vaso_units::{dimension, parse_as};
 
@@ -60,13 +61,16 @@ pub(crate) enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// What accuracy costs in time: the case run along ladders of settings, errors and orders, or settings for an error or a time.
+    #[command(after_help = examples::STUDY)]
+    Study(Box<StudyFlags>),
     /// Windkessel parameters from cuff pressures, ready to paste into the case.
     #[command(after_help = examples::TUNE)]
     Tune(TuneFlags),
     /// Make the one-file report of an output folder again.
     #[command(after_help = examples::REPORT)]
     Report {
-        /// Output folder of a run.
+        /// Output folder of a run or of a study.
         out: PathBuf,
     },
     /// The JSON Schema of case.toml, by which editors complete and check it.
@@ -102,6 +106,84 @@ pub(crate) struct NewFlags {
     /// Machine-readable result on standard output.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct StudyFlags {
+    #[command(flatten)]
+    pub(crate) common: Common,
+    /// Ladders to climb, of spacing, sound-speed, precision, generator, wall, viscosity and coupling; default: those that the
+    /// case calls for.
+    #[arg(long, value_name = "NAME,...", value_parser = Wish::ladders)]
+    ladders: Option<std::vec::Vec<String>>,
+    /// Spacings of the first ladder, such as "0.6 mm,0.4 mm,0.3 mm"; default: 1.69, 1.3 and 1 times that of the case.
+    #[arg(long, value_name = "LENGTH,...", value_parser = lengths)]
+    spacings: Option<std::vec::Vec<f64>>,
+    /// A key of the case with values to run it with at the middle spacing, such as `numerics.smoothing_length=1.2|1.5`; in place of
+    /// the ladders but that of the spacing. May be given several times.
+    #[arg(long, value_name = "KEY=VALUE|VALUE", value_parser = values)]
+    vary: Vec<(String, Vec<String>)>,
+    /// The error that prices and goals go by; default: the largest of all.
+    #[arg(long, value_name = "NAME")]
+    of: Option<String>,
+    /// Find the spacing for this error, such as 2%, and run it.
+    #[arg(long, value_name = "SHARE", value_parser = share, conflicts_with = "budget")]
+    error: Option<f64>,
+    /// Find the finest spacing that this time allows, such as "10 min", and run it.
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    budget: Option<f64>,
+    /// Run everything so many times and take the median of the times.
+    #[arg(long, value_name = "TIMES", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..))]
+    repeat: u8,
+    /// Write over an older study.
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+impl StudyFlags {
+    pub(crate) fn request(&self) -> StudyRequest {
+        let goal = self.error.map(Goal::Error).or(self.budget.map(Goal::Budget));
+        StudyRequest {
+            wish: Wish {
+                ladders: self.ladders.clone(),
+                spacings: self.spacings.clone(),
+                vary: self.vary.clone(),
+            },
+            goal,
+            judged_by: self.of.clone(),
+            repeat: usize::from(self.repeat),
+        }
+    }
+}
+
+fn lengths(list: &str) -> Result<Vec<f64>, String> {
+    let length = |text: &str| match parse_as(text.trim(), dimension::LENGTH) {
+        Ok(length) if length > 0.0 && length.is_finite() => Ok(length),
+        Ok(_) => Err(format!("\"{}\" is out of range; a spacing is above 0", text.trim())),
+        Err(error) => Err(error.to_string()),
+    };
+    list.split(',').map(length).collect()
+}
+
+fn values(text: &str) -> Result<(String, Vec<String>), String> {
+    let (key, values) = setting(text)?;
+    Ok((key, values.split('|').map(|value| value.trim().to_owned()).collect()))
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match parse_as(text, dimension::NUMBER) {
+        Ok(share) if share > 0.0 && share < 1.0 => Ok(share),
+        Ok(_) => Err(format!("\"{text}\" is out of range; allowed: a share above 0 and below 1, such as 2%")),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn time(text: &str) -> Result<f64, String> {
+    match parse_as(text, dimension::TIME) {
+        Ok(time) if time > 0.0 && time.is_finite() => Ok(time),
+        Ok(_) => Err(format!("\"{text}\" is out of range; a time is above 0")),
+        Err(error) => Err(error.to_string()),
+    }
 }
 
 #[derive(Args)]

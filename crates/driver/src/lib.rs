@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod bodies;
+mod calls;
 pub mod case;
 pub mod check;
 pub mod checkpoint;
@@ -26,6 +27,7 @@ pub mod run;
 pub mod shell;
 mod start;
 pub mod structure;
+pub mod study;
 mod supported;
 mod timing;
 pub mod tune;

@@ -12,9 +12,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use vaso_driver::run::Talk;
-use vaso_driver::{Case, DriverError, Plan, check, compare, new, particles, resume, run, tune};
+use vaso_driver::{Case, DriverError, Plan, check, compare, new, particles, resume, run, study, tune};
 use vaso_geometry::LengthUnit;
-use vaso_io::Summary;
+use vaso_io::{StudyReport, Summary};
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -70,13 +70,26 @@ fn execute(command: Command) -> Result<(), DriverError> {
             let summary = resume::resume(&out, &stop_on_interrupt(), &talk)?;
             tell(&summary, &out, &talk, json)
         }
+        Command::Study(flags) => {
+            let common = &flags.common;
+            set_threads(common.threads)?;
+            let case = Case::load(&common.case, &common.set)?;
+            let out = out_folder(common, &case);
+            let stop = stop_on_interrupt();
+            let report = study::study(&case, &flags.request(), &out, flags.force, &stop, &talk(common))?;
+            if common.json { put(report.to_json() + "\n") } else { Ok(()) }
+        }
         Command::Tune(flags) => {
             set_threads(flags.common.threads)?;
             let case = Case::load(&flags.common.case, &flags.common.set)?;
             put(tune::tune(&case, &flags.request())?)
         }
         Command::Report { out } => {
-            let file = vaso_report::write_report(&out)?;
+            let study = out.join("study.json");
+            let file = match study.exists() {
+                true => vaso_report::write_study(&out, &StudyReport::read(&study)?)?,
+                false => vaso_report::write_report(&out)?,
+            };
             put(format!("{}\n", file.display()))
         }
         Command::Schema => put(vaso_scene::case_schema()),

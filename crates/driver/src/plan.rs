@@ -1,5 +1,6 @@
 //! From a case to a plan: which effects run, with which numbers, why, and at what expected cost.
 
+use crate::calls;
 use crate::case::Case;
 use crate::conditions;
 pub use crate::conditions::PlannedOpening;
@@ -48,6 +49,10 @@ pub struct Plan {
     pub reynolds_peak: f64,
     /// Womersley number at the inlet, for pulsatile flow.
     pub womersley: Option<f64>,
+    /// Radial strain expected of a wall that deforms \[-\].
+    pub radial_strain: Option<f64>,
+    /// Viscosity; of a law of the shear rate that at a rate typical of arteries \[Pa s\].
+    pub viscosity: f64,
     /// Every effect the program knows.
     pub effects: Vec<EffectEntry>,
     /// Expected cost.
@@ -142,6 +147,9 @@ impl Plan {
         warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(|w| told(case, w)));
         warnings.extend(wall.iter().flat_map(PlannedWall::warnings));
         warnings.extend(shell.iter().flat_map(|shell| shell.warnings(case)));
+        if let (Some(_), false) = (scene.numerics.reference_pressure, wall.is_some() || shell.is_some()) {
+            warnings.extend(far_reference(flow.pressure_range, density, flow.top_speed));
+        }
         if across < 12.0 {
             warnings.push(format!(
                 "{across:.1} particles lie across the narrowest opening; flow patterns want 12, wall shear stress 20"
@@ -157,10 +165,15 @@ impl Plan {
         let isa = Isa::detect();
         let predicted =
             estimate::cost(case, &numbers, (wall.as_ref(), shell.as_ref()), precision, scene.run.end_time);
+        let radial_strain = pulse_speed.map(|c| flow.pressure_range / (2.0 * density * c * c));
         let womersley = scene
             .run
             .period
             .map(|t| flow.inlet_radius * (std::f64::consts::TAU * density / (t * viscosity)).sqrt());
+        let mut effects = supported::effects(scene, &openings, wall.as_ref(), shell.as_ref());
+        let is_thinning = rheology.is_some();
+        let called = calls::Scene { openings: &openings, womersley, radial_strain, is_thinning };
+        warnings.extend(called.judge(&mut effects));
         Ok(Self {
             numbers,
             sound_speed_reason,
@@ -174,7 +187,9 @@ impl Plan {
             wall_metrics: scene.output.fields.iter().any(|f| supported::is_shear(*f)),
             reynolds_peak: flow.reynolds_peak,
             womersley,
-            effects: supported::effects(scene, &openings, wall.as_ref(), shell.as_ref()),
+            radial_strain,
+            viscosity,
+            effects,
             wall,
             shell,
             predicted,
@@ -183,6 +198,22 @@ impl Plan {
         })
     }
 }
+
+/// What to say of a reference pressure that is given and lies far from the pressures of a rigid vessel: `range` \[Pa\] against
+/// the dynamic pressure at `speed` \[m/s\].
+fn far_reference(range: f64, density: f64, speed: f64) -> Option<String> {
+    let ratio = range / (density * speed * speed);
+    (ratio > FAR_REFERENCE).then(|| {
+        format!(
+            "`numerics.reference_pressure` makes the equation of state carry {range:.0} Pa, {ratio:.0} times the dynamic pressure: \
+             flows break down so; leave it \"auto\", which keeps the common level out of it"
+        )
+    })
+}
+
+/// Pressure over `rho u^2` that is told where the reference is given: a pipe at 2000 broke down within 12 ms, the carotid of the
+/// demo at 3 runs.
+const FAR_REFERENCE: f64 = 50.0;
 
 /// A warning of the generator, with the opening by its name.
 fn told(case: &Case, warning: &vaso_generation::Warning) -> String {

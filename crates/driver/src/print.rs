@@ -97,9 +97,10 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     }
     let _ = writeln!(
         out,
-        "numbers  Reynolds {:.0}{} · density blend {}",
+        "numbers  Reynolds {:.0}{}{} · density blend {}",
         plan.reynolds_peak,
         plan.womersley.map_or(String::new(), |w| format!(" · Womersley {w:.1}")),
+        plan.radial_strain.map_or(String::new(), |e| format!(" · radial strain {:.1} %", 100.0 * e)),
         n.density_blend
     );
     let _ = writeln!(out, "sound    {:.3} m/s: {}", n.sound_speed, plan.sound_speed_reason);
@@ -126,7 +127,13 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
         1e6 * n.acoustic_step(0.5 * n.reference_speed)
     );
     for e in &plan.effects {
-        let _ = writeln!(out, "{:<8} {:<26} {}", if e.on { "effect" } else { "absent" }, e.name, e.reason);
+        let against = match (e.on, e.called_for) {
+            (false, true) => "; called for",
+            (true, false) => "; not called for",
+            _ => "",
+        };
+        let state = if e.on { "effect" } else { "absent" };
+        let _ = writeln!(out, "{state:<8} {:<26} {}{against}", e.name, e.reason);
     }
     let _ = writeln!(
         out,

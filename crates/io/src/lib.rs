@@ -15,6 +15,7 @@ pub mod schema;
 mod series;
 mod shell;
 mod solid;
+mod study;
 mod summary;
 mod table;
 mod wall;
@@ -38,6 +39,7 @@ pub use series::{
 };
 pub use shell::ShellSummary;
 pub use solid::SolidSummary;
+pub use study::{ErrorEntry, GoalEntry, NamedValue, PriceEntry, StudyReport, StudyRun, StudyStatus};
 pub use summary::{OpeningSummary, ParticleCounts, Stability, Status, StepCounts, Summary};
 pub use table::{Table, TableData, read_table};
 pub use wall::{Distribution, LOW_TAWSS, WallSummary};

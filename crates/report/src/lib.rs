@@ -13,6 +13,7 @@ pub mod picture;
 mod report;
 mod scale;
 mod sections;
+mod study;
 mod vessel;
 mod wall;
 
@@ -21,3 +22,4 @@ pub use drawing::{Drawing, Pen, Plane, sheet};
 pub use error::ReportError;
 pub use picture::render_vessel_png;
 pub use report::write_report;
+pub use study::{work_precision, write_study};

@@ -12,6 +12,7 @@ use crate::opening::{ConditionKind, Opening};
 use crate::overrides;
 use crate::reader::Reader;
 use crate::scene::{Field, Output, Run, Scene};
+use crate::schema::KEYS;
 use crate::section::Section;
 use crate::words::Word;
 
@@ -49,14 +50,18 @@ pub(crate) fn scene(source: Source) -> Result<Scene, SceneError> {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
-    let mut reader = Reader { source: &source, directory, problems: overriding };
+    let mut reader = Reader { source: &source, schema: KEYS, directory, problems: overriding };
     let sections = reader.root(&root);
     let mut builder = Builder { source: &source, problems: reader.problems };
     let scene = builder.scene(&sections, directory);
     if builder.problems.is_empty() {
         return Ok(scene.expect("a part that cannot be built has been reported"));
     }
-    let mut problems = builder.problems;
+    Err(in_order(builder.problems, &source))
+}
+
+/// Problems in the order in which they stand in the file, then those of other files, then those of overrides.
+pub(crate) fn in_order(mut problems: Vec<Problem>, source: &Source) -> SceneError {
     problems.sort_by_key(|problem| {
         (
             problem.setting.is_some(),
@@ -66,7 +71,7 @@ pub(crate) fn scene(source: Source) -> Result<Scene, SceneError> {
             problem.column,
         )
     });
-    Err(SceneError { problems })
+    SceneError { problems }
 }
 
 impl Builder<'_> {

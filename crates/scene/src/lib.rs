@@ -6,6 +6,7 @@ mod contents;
 mod document;
 mod drive;
 mod error;
+mod expect;
 mod files;
 mod json_schema;
 mod kind;
@@ -23,6 +24,7 @@ mod waveform;
 mod words;
 
 pub use error::{Excerpt, Problem, SceneError};
+pub use expect::{Expectation, Measured, Statistic};
 pub use json_schema::case_schema;
 pub use material::{Blood, OpenEnds, Wall, WallBody};
 pub use opening::{Condition, Coupling, Drive, Opening, Profile};

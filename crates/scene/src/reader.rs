@@ -9,19 +9,20 @@ use crate::document::{Content, Entry, Node, Source, Spot};
 use crate::error::Problem;
 use crate::kind::{Key, Kind, Presence, When, names};
 use crate::plain::{is_name, units_in_use};
-use crate::schema::KEYS;
 use crate::section::{Field, Section, Value};
 
 /// Reads tables and collects what is wrong with them.
 pub(crate) struct Reader<'a> {
     pub(crate) source: &'a Source,
+    /// The schema the file is read by.
+    pub(crate) schema: &'static [Key],
     /// Where relative paths start.
     pub(crate) directory: &'a Path,
     pub(crate) problems: Vec<Problem>,
 }
 
 impl Reader<'_> {
-    /// Reads the whole case.
+    /// Reads the whole file.
     pub(crate) fn root(&mut self, root: &Node) -> Section {
         self.section("", String::new(), root)
     }
@@ -33,7 +34,7 @@ impl Reader<'_> {
         };
         let mut section =
             Section { path: path.into(), shown, spot: node.spot.clone(), fields: BTreeMap::new() };
-        let keys: Vec<&Key> = KEYS.iter().filter(|key| key.parent() == path).collect();
+        let keys: Vec<&Key> = self.schema.iter().filter(|key| key.parent() == path).collect();
         for entry in entries {
             let value = self.entry(&section, &keys, entries, entry);
             section.fields.insert(entry.key.clone(), Field { value, spot: Some(entry.node.spot.clone()) });
@@ -66,7 +67,7 @@ impl Reader<'_> {
 
     fn unknown(&mut self, section: &Section, keys: &[&Key], entry: &Entry) {
         let names = names(keys);
-        let elsewhere = KEYS.iter().find(|key| key.name() == entry.key && !key.parent().is_empty());
+        let elsewhere = self.schema.iter().find(|key| key.name() == entry.key && !key.parent().is_empty());
         let advice = match (nearest(&entry.key, names.iter().copied()), elsewhere) {
             (Some(near), _) => format!("did you mean `{near}`?"),
             (None, Some(key)) => format!("`{}` belongs in `{}`", entry.key, key.parent()),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::expect;
 use crate::kind::{Key, Kind, Presence};
 use crate::schema::KEYS;
 
@@ -28,6 +29,13 @@ or `waveform_unit` does. `#` begins a comment. With `run.period` the table holds
 repeated at its end; without, it covers the whole run.
 ";
 
+const EXPECT: &str = "
+# Reference of expect.toml
+
+What is known of a flow beforehand, in a file of its own beside `case.toml`; `vaso study` counts errors from it. Without it,
+errors are counted from the value that the finest runs point to. Openings and probes are those of the case, by name.
+";
+
 /// The reference as Markdown: every key with its type, default and meaning.
 ///
 /// ```
@@ -35,17 +43,23 @@ repeated at its end; without, it covers the whole run.
 /// ```
 pub fn case_reference() -> String {
     let mut text = HEAD.to_owned();
+    tables(KEYS, &mut text);
+    text.push_str(EXPECT);
+    tables(expect::KEYS, &mut text);
+    text
+}
+
+fn tables(schema: &[Key], text: &mut String) {
     for table in
-        KEYS.iter().filter(|key| matches!(key.kind, Kind::Table | Kind::Tables | Kind::QuantityOrTable(..)))
+        schema.iter().filter(|key| matches!(key.kind, Kind::Table | Kind::Tables | Kind::QuantityOrTable(..)))
     {
-        let keys: Vec<&Key> = KEYS.iter().filter(|key| key.parent() == table.path).collect();
+        let keys: Vec<&Key> = schema.iter().filter(|key| key.parent() == table.path).collect();
         text.push_str(&heading(table));
         text.push_str("\n| key | value | units | default | meaning |\n|---|---|---|---|---|\n");
         for key in keys {
             text.push_str(&row(key, table.path.len() + 1));
         }
     }
-    text
 }
 
 fn heading(table: &Key) -> String {

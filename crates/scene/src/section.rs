@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use crate::document::Spot;
+use crate::expect;
 use crate::schema::KEYS;
 use crate::words::Word;
 
@@ -49,7 +50,9 @@ pub(crate) enum Value {
 impl Section {
     fn field(&self, name: &str) -> Option<&Field> {
         debug_assert!(
-            KEYS.iter().any(|key| key.path.rsplit_once('.').unwrap_or(("", key.path)) == (&self.path, name)),
+            KEYS.iter()
+                .chain(expect::KEYS)
+                .any(|key| key.path.rsplit_once('.').unwrap_or(("", key.path)) == (&self.path, name)),
             "the schema has no `{name}` in `{}`",
             self.path
         );

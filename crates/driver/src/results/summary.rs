@@ -1,6 +1,7 @@
 //! What `summary.json` says of a run.
 
 use super::{Results, account, outflows};
+use crate::calls;
 use crate::case::Case;
 use crate::deforming::Deforming;
 use crate::flow::Flow;
@@ -75,6 +76,9 @@ impl<F> Results<F> {
         if let Some(wall) = &mut flow.wall {
             W::summarize(wall, plan, &mut summary);
         }
+        let is_thinning = plan.numbers.rheology.is_some();
+        let missed = calls::missed(&summary, plan.numbers.reference_speed, plan.viscosity, is_thinning);
+        summary.warnings.extend(missed);
         summary
     }
 
@@ -121,7 +125,7 @@ pub fn numbers(plan: &Plan) -> Numbers {
     Numbers {
         reynolds_peak: Some(plan.reynolds_peak),
         womersley: plan.womersley,
-        radial_strain: None,
+        radial_strain: plan.radial_strain,
         sound_speed_m_s: Some(plan.numbers.sound_speed),
     }
 }

@@ -1,0 +1,97 @@
+//! The studies of `docs/accuracy.md`.
+
+pub mod page;
+
+use vaso_driver::study::{Goal, Wish};
+
+/// A case that is studied.
+pub struct Studied {
+    /// Name by which the generator is asked for it; that of its file in `tests/accuracy`.
+    pub name: &'static str,
+    /// Folder of the case, from the root of the project.
+    pub case: &'static str,
+    /// What the reader should know.
+    pub remark: &'static str,
+    /// Settings over those of the case.
+    pub set: &'static [(&'static str, &'static str)],
+    /// Spacings \[m\]; empty for those of the default ladder.
+    pub spacings: &'static [f64],
+    /// Ladders; empty for all that the case calls for.
+    pub ladders: &'static [&'static str],
+    /// What is asked for besides.
+    pub goal: Option<Goal>,
+}
+
+impl Studied {
+    /// Settings as for `--set`.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        self.set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
+    }
+
+    /// What is varied.
+    pub fn wish(&self) -> Wish {
+        let some = |list: &[&str]| (!list.is_empty()).then(|| list.iter().map(|s| (*s).to_owned()).collect());
+        Wish {
+            ladders: some(self.ladders),
+            spacings: (!self.spacings.is_empty()).then(|| self.spacings.to_vec()),
+            vary: Vec::new(),
+        }
+    }
+
+    /// The command that does the same.
+    pub fn command(&self) -> String {
+        let mut text = format!("vaso study {}", self.case);
+        for (key, value) in self.set {
+            text += &format!(" --set {key}=\"{value}\"");
+        }
+        if !self.ladders.is_empty() {
+            text += &format!(" --ladders {}", self.ladders.join(","));
+        }
+        if !self.spacings.is_empty() {
+            let list: Vec<String> =
+                self.spacings.iter().map(|s| format!("{} mm", (1e9 * s).round() / 1e6)).collect();
+            text += &format!(" --spacings \"{}\"", list.join(","));
+        }
+        match self.goal {
+            Some(Goal::Error(error)) => text += &format!(" --error {}%", 100.0 * error),
+            Some(Goal::Budget(budget)) => text += &format!(" --budget \"{budget} s\""),
+            None => {}
+        }
+        text
+    }
+}
+
+/// The studies, in the order of the page.
+pub const CASES: &[Studied] = &[
+    Studied {
+        name: "pipe",
+        case: "cases/pipe",
+        remark: "The default study of the pipe, at nine, twelve and sixteen spacings across: errors are those of the mean \
+                 velocity at four points of its middle against the formula. The inlet imposes the exact profile, so that what \
+                 is measured is how far the scheme keeps it over two and a half diameters.",
+        set: &[],
+        spacings: &[],
+        ladders: &[],
+        goal: None,
+    },
+    Studied {
+        name: "pipe-one-percent",
+        case: "cases/pipe",
+        remark: "The same pipe, asked for an error of one per cent: the spacing is found from the law of the ladder, and run.",
+        set: &[],
+        spacings: &[],
+        ladders: &[],
+        goal: Some(Goal::Error(0.01)),
+    },
+    Studied {
+        name: "carotid",
+        case: "cases/carotid",
+        remark: "A bifurcation of the size of a carotid artery, for which there is no formula: errors are counted from what the \
+                 three finest spacings converge to, or from the finest where they do not converge. They say nothing of what \
+                 the model leaves out.",
+        set: &[("output.fields", "[\"velocity\", \"pressure\", \"wss\"]")],
+        spacings: &[],
+        ladders: &[],
+        goal: None,
+    },
+];
