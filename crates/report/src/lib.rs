@@ -14,6 +14,7 @@ mod report;
 mod scale;
 mod sections;
 mod vessel;
+mod viewer;
 mod wall;
 
 pub use compare::{ComparedParticles, slab, write_comparison};
