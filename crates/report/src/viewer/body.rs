@@ -1,7 +1,7 @@
 //! A body of a run as the viewer shows it: positions and fields of chosen frames, read from a series.
 
 use super::budget;
-use super::coarse::coarse;
+use super::coarse::{Coarse, coarse};
 use super::fields::{Known, OF_BLOOD, OF_WALL, PRESSURE};
 use crate::picture::mean_at;
 use crate::scale::count;
@@ -11,8 +11,10 @@ use vaso_io::{FrameData, IoError, SeriesReader};
 
 /// Bytes of a number in the page before it is written as text.
 const CODE: usize = 2;
-/// Points of a surface at most: their numbers must fit into a code.
-const MOST_POINTS: usize = 60_000;
+/// Points of a surface at most, so that their numbers fit into a code, and fewer for more frames.
+const POINTS: [usize; 3] = [60_000, 30_000, 15_000];
+/// Frames of a surface for which points are given up.
+const FRAMES: usize = 10;
 /// Particles at most and, where there is room for more frames, at least.
 const PARTICLES: (usize, usize) = (40_000, 8_000);
 /// Frames of particles there should be room for before there are more particles.
@@ -104,15 +106,13 @@ pub(super) fn surface(
 ) -> Result<Option<Body>, IoError> {
     let Some(last) = wall.last_frame()? else { return Ok(None) };
     let all = wall.triangles()?;
-    let shape = coarse(&last.position, &all, MOST_POINTS);
-    let points = shape.kept.len();
     let has = |field: &&Known| wall.info().fields.iter().any(|info| info.name == field.name);
     let known: Vec<Known> = OF_WALL.iter().filter(has).copied().collect();
     let blood = blood
         .filter(|_| !known.iter().any(|field| field.name == PRESSURE.name))
         .filter(|blood| blood.info().fields.iter().any(|info| info.name == PRESSURE.name))
         .filter(|_| spacing > 0.0);
-    let cost = |frames: &[usize]| {
+    let cost = |shape: &Coarse, frames: &[usize]| {
         let distinct = |row: &dyn Fn(usize) -> Option<usize>| {
             let mut rows: Vec<Option<usize>> = frames.iter().map(|&k| row(k)).collect();
             rows.sort_unstable();
@@ -122,10 +122,19 @@ pub(super) fn surface(
         let fields: usize = known.iter().map(|f| distinct(&|k| wall.field_row(f.name, k))).sum();
         let pressure = if blood.is_some() { frames.len() } else { 0 };
         let positions = 3 * distinct(&|k| wall.position_row(k));
-        CODE * (3 * shape.triangles.len() + points * (positions + fields + pressure))
+        CODE * (3 * shape.triangles.len() + shape.kept.len() * (positions + fields + pressure))
     };
     let times = &wall.info().times;
-    let chosen = budget::frames(times, room, cost);
+    let mut chosen = Vec::new();
+    let mut shape = Coarse { kept: Vec::new(), triangles: Vec::new() };
+    for most in POINTS {
+        shape = coarse(&last.position, &all, most);
+        chosen = budget::frames(times, room, |frames| cost(&shape, frames));
+        if chosen.len() >= FRAMES.min(times.len()) {
+            break;
+        }
+    }
+    let points = shape.kept.len();
     if chosen.is_empty() || points == 0 {
         return Ok(None);
     }

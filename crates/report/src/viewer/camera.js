@@ -69,7 +69,7 @@ class Camera {
   fit(width, height, extents) {
     const [[left, right], [low, high]] = extents(this.axes[0], this.axes[1]);
     // Room at the right for the colour bar, and around for names.
-    const bar = Math.min(120, 0.22 * width);
+    const bar = Math.min(120, 0.34 * width);
     const room = [Math.max(width - bar - 110, 0.5 * width), Math.max(height - 90, 0.5 * height)];
     this.scale = Math.min(room[0] / Math.max(right - left, 1e-12), room[1] / Math.max(high - low, 1e-12));
     this.fitted = this.scale;
