@@ -31,8 +31,7 @@ pub(crate) fn prose(text: &str) -> String {
 }
 
 /// What a browser lets the page do: nothing comes from elsewhere, whatever the page says.
-const POLICY: &str =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+const POLICY: &str = include_str!("policy.txt");
 
 /// A page of its own with style and nothing from elsewhere; `body` and `foot` are HTML already, and `style` is what a part of it
 /// needs besides the style of all pages.
