@@ -2,12 +2,13 @@
 
     python check_report.py [--shots FOLDER] REPORT.html ...
 
-Asserts that each page opens within three seconds without a word on the console or a request to anywhere, is smaller than 15 MB,
+Asserts that each page opens within three seconds (longer where the processor is shared) without a word on the console or a request to anywhere, is smaller than 15 MB,
 and that the picture of the vessel changes when it should. Ends with 1 where something is wrong. Wants Chromium on the path.
 """
 
 import argparse
 import io
+import os
 import pathlib
 import shutil
 import sys
@@ -20,6 +21,11 @@ MOST_BYTES = 15_000_000
 MOST_SECONDS = 3.0
 # A graphics card drawn by the processor: there is none where tests run.
 FLAGS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
+
+
+def patience():
+    """Seconds a page may take: more where other programs have the processor too, which here also stands in for a graphics card."""
+    return MOST_SECONDS * max(1.0, os.getloadavg()[0] / os.cpu_count())
 
 
 class Page:
@@ -202,7 +208,7 @@ def opened(browser, path, shots):
     """The page, opened anew where that took long: other programs may have the processor."""
     for attempt in range(3):
         page = Page(browser, path, shots, viewport={"width": 1280, "height": 900})
-        if page.seconds < MOST_SECONDS or attempt == 2:
+        if page.seconds < patience() or attempt == 2:
             return page
         page.page.close()
 
@@ -211,7 +217,7 @@ def check(browser, path, shots):
     page = opened(browser, path, shots)
     size = path.stat().st_size
     page.check(size < MOST_BYTES, f"{size} bytes are too many")
-    page.check(page.seconds < MOST_SECONDS, f"opens in {page.seconds:.2f} s")
+    page.check(page.seconds < patience(), f"opens in {page.seconds:.2f} s, more than {patience():.1f} s")
     page.whole("page")
     if page.page.locator("#viewer-root").count():
         values, first = fields(page)

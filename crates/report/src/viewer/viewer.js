@@ -141,14 +141,14 @@ class Viewer {
     this.canvas.height = Math.round(height * this.density);
     if (this.isHome || !before) this.look("front");
     else this.camera.resize(width / before);
-    // Drawn at once: a canvas of a new size is empty.
+    // Drawn at once, as a canvas of a new size is empty; what was asked for meanwhile is then done.
     this.draw();
   }
 
   redraw() {
     if (this.isDue || !this.width) return;
     this.isDue = true;
-    requestAnimationFrame(() => this.draw());
+    requestAnimationFrame(() => this.isDue && this.draw());
   }
 
   draw() {
