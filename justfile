@@ -19,6 +19,10 @@ check:
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
     cargo test -p vaso-tests --test tidy
 
+# The report of a case in a headless browser, as a reader uses it; pictures in target/report.
+report-test report="cases/carotid/out/report.html":
+    sh .ci/report.sh {{report}}
+
 # Flows against formulas and published numbers, with the figures printed.
 validate:
     cargo test -p vaso-tests --test 'validation*' --test carotid -- --nocapture

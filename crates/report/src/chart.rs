@@ -41,7 +41,9 @@ pub(crate) fn chart(title: &str, label: &str, curves: &[Curve]) -> String {
     let y = |v: f64| HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (v - low) / (high - low);
 
     let mut svg = format!(
-        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{}\"><g class=\"grid\">",
+        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" data-time=\"{start} {end} {LEFT} {} {TOP} {}\" aria-label=\"{}\"><g class=\"grid\">",
+        WIDTH - RIGHT,
+        HEIGHT - BOTTOM,
         escape(&format!("{title}: {}", described(curves)))
     );
     for &tick in &y_ticks {

@@ -2,7 +2,7 @@
 
 /// Viridis (S. van der Walt and N. Smith for matplotlib, 2015, CC0), every eighth of its 256 colours as sRGB.
 /// Between them linear interpolation is off by less than 2 of 255.
-const VIRIDIS: [[u8; 3]; 33] = [
+pub(crate) const VIRIDIS: [[u8; 3]; 33] = [
     [68, 1, 84],
     [71, 13, 96],
     [72, 24, 106],

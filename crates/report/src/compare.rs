@@ -59,7 +59,7 @@ pub fn write_comparison(
         section("cut", "Along the vessel", &cuts(report, particles, spacing, &path)),
     ];
     let foot = "Made by vaso with <code>compare.json</code> beside this file. Lengths are in spacings where no unit stands.";
-    write_whole(&path, page(&report.case, &body.concat(), foot).as_bytes())?;
+    write_whole(&path, page(&report.case, "", &body.concat(), foot).as_bytes())?;
     Ok(path)
 }
 

@@ -30,12 +30,17 @@ pub(crate) fn prose(text: &str) -> String {
     parts.iter().enumerate().map(mark).collect()
 }
 
-/// A page of its own with style and nothing from elsewhere; `body` and `foot` are HTML already.
-pub(crate) fn page(title: &str, body: &str, foot: &str) -> String {
+/// What a browser lets the page do: nothing comes from elsewhere, whatever the page says.
+const POLICY: &str = include_str!("policy.txt");
+
+/// A page of its own with style and nothing from elsewhere; `body` and `foot` are HTML already, and `style` is what a part of it
+/// needs besides the style of all pages.
+pub(crate) fn page(title: &str, style: &str, body: &str, foot: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{} – vaso</title>\n<style>\n{}</style>\n</head>\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{} – vaso</title>\n<style>\n{}{style}</style>\n</head>\n\
          <body>\n<main>\n{body}</main>\n<footer><small>{foot}</small></footer>\n</body>\n</html>\n",
         escape(title),
         include_str!("style.css")

@@ -15,6 +15,7 @@ mod scale;
 mod sections;
 mod study;
 mod vessel;
+mod viewer;
 mod wall;
 
 pub use compare::{ComparedParticles, slab, write_comparison};

@@ -3,13 +3,16 @@
 use crate::ReportError;
 use crate::chart::{Curve, chart};
 use crate::html::{self, escape, prose, section};
-use crate::{cycles, limits, sections, vessel, wall};
+use crate::{cycles, limits, sections, vessel, viewer, wall};
 use std::path::{Path, PathBuf};
 use vaso_io::{Summary, TableData, read_table, write_whole};
 
+/// Bytes of a page at most.
+const MOST_BYTES: usize = 15_000_000;
+
 /// Makes `report.html` in the output folder of a run and returns its path.
 ///
-/// The page is one file that needs no network and no script. It is made from `summary.json`, and from
+/// The page is one file that needs no network, below 15 MB. A script in it turns the vessel; without one all else still stands. It is made from `summary.json`, and from
 /// `openings.csv`, `fluid.vtkhdf` and `wall.vtkhdf` as far as they exist: a part that cannot be read is
 /// replaced by the reason, so that a run that broke down still gets its report.
 ///
@@ -23,9 +26,9 @@ pub fn write_report(out_dir: &Path) -> Result<PathBuf, ReportError> {
 }
 
 fn page(out: &Path, summary: &Summary) -> String {
-    let body = [
-        sections::head(summary),
-        section("vessel", "The vessel", &vessel::figures(out, summary.spacing_m)),
+    let before = sections::head(summary);
+    let pictures = vessel::figures(out, summary.spacing_m);
+    let after = [
         section(
             "openings",
             "Openings",
@@ -37,13 +40,18 @@ fn page(out: &Path, summary: &Summary) -> String {
         section("cost", "Plan and cost", &sections::effects(summary)),
         section("scene", "Scene", &sections::scene(summary)),
         section("limits", "What this does not prove", &limits::limits(summary)),
-    ];
+    ]
+    .concat();
+    // The viewer takes what the rest has left.
+    let room = MOST_BYTES.saturating_sub(before.len() + pictures.len() + after.len());
+    let vessel = viewer::viewer(out, summary, room) + &pictures;
+    let body = [before, section("vessel", "The vessel", &vessel), after].concat();
     let foot = format!(
         "Made by vaso {} from <code>summary.json</code>, <code>openings.csv</code> and the series beside this \
          file. Quantities are SI or marked with their unit.",
         escape(&summary.vaso_version)
     );
-    html::page(&summary.case, &body.concat(), &foot)
+    html::page(&summary.case, viewer::STYLE, &body, &foot)
 }
 
 /// Flow and pressure of every opening against time.

@@ -86,7 +86,7 @@ pub(crate) fn enclosed(
     );
     Ok(format!(
         "<figure class=\"vessel\"><figcaption><b>{}</b> <small>{when}</small></figcaption>\
-         <img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">{}{}</figure>\n",
+         <img decoding=\"async\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">{}{}</figure>\n",
         escape(title),
         drawn.picture.width,
         drawn.picture.height,

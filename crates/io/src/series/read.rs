@@ -106,6 +106,18 @@ impl SeriesReader {
         &self.info
     }
 
+    /// Row of the file at which the positions of a frame begin; `None` where there is no such frame. Frames of the same row hold the
+    /// same positions, bit for bit.
+    pub fn position_row(&self, index: usize) -> Option<usize> {
+        self.point_offsets.get(index).copied()
+    }
+
+    /// The same of a field; `None` also where there is no such field.
+    pub fn field_row(&self, name: &str, index: usize) -> Option<usize> {
+        let (_, offsets) = self.fields.iter().find(|(field, _)| field.name == name)?;
+        offsets.get(index).copied()
+    }
+
     /// Reads one frame.
     ///
     /// # Errors

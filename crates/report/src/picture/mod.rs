@@ -14,6 +14,7 @@ mod view;
 
 pub use canvas::Picture;
 pub use figure::render_vessel_png;
+pub(crate) use smooth::mean_at;
 pub use surface::draw_surface;
 pub(crate) use view::principal_axes;
 

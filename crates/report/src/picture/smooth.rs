@@ -1,37 +1,41 @@
 //! Local means of a noisy quantity.
 
 use glam::DVec3;
-use std::collections::BTreeMap;
 
 /// Mean of `values` around each particle, weighted by a Gaussian of width `spacing` cut at twice that.
 ///
 /// The pressure of single particles scatters about the pressure of the flow by as much as the flow's own
 /// differences; what a picture should show is the latter. Values that are not finite count for nothing.
 pub(super) fn local_mean(position: &[DVec3], values: &[f64], spacing: f64) -> Vec<f64> {
+    mean_at(position, position, values, spacing)
+}
+
+/// The same mean at the places `at`: NaN where no particle with a value is within two spacings.
+pub(crate) fn mean_at(at: &[DVec3], position: &[DVec3], values: &[f64], spacing: f64) -> Vec<f64> {
     let reach = 2.0 * spacing;
     let cell = |x: DVec3| (x / reach).floor().as_i64vec3().to_array();
-    let mut cells: BTreeMap<[i64; 3], Vec<usize>> = BTreeMap::new();
-    for (i, x) in position.iter().enumerate().filter(|&(i, x)| x.is_finite() && values[i].is_finite()) {
-        cells.entry(cell(*x)).or_default().push(i);
-    }
+    let valued = position.iter().zip(values).enumerate().filter(|(_, (x, v))| x.is_finite() && v.is_finite());
+    // By cell, and within one by number: a sorted list in which neighbours along the last axis lie together.
+    let mut cells: Vec<([i64; 3], usize)> = valued.map(|(i, (x, _))| (cell(*x), i)).collect();
+    cells.sort_unstable();
     let mean = |x: &DVec3| {
         let [a, b, c] = cell(*x);
         let (mut sum, mut weight) = (0.0, 0.0);
         for (da, db) in (-1..=1).flat_map(|da| (-1..=1).map(move |db| (da, db))) {
-            // The three cells along the last axis are neighbours in the map's order.
-            for j in cells.range([a + da, b + db, c - 1]..=[a + da, b + db, c + 1]).flat_map(|(_, list)| list)
-            {
-                let distance = (position[*j] - *x).length_squared() / (spacing * spacing);
+            let first = cells.partition_point(|(at, _)| *at < [a + da, b + db, c - 1]);
+            let near = cells[first..].iter().take_while(|(at, _)| *at <= [a + da, b + db, c + 1]);
+            for &(_, j) in near {
+                let distance = (position[j] - *x).length_squared() / (spacing * spacing);
                 if distance < 4.0 {
                     let w = (-distance).exp();
-                    sum += w * values[*j];
+                    sum += w * values[j];
                     weight += w;
                 }
             }
         }
         sum / weight
     };
-    position.iter().map(|x| if x.is_finite() { mean(x) } else { f64::NAN }).collect()
+    at.iter().map(|x| if x.is_finite() { mean(x) } else { f64::NAN }).collect()
 }
 
 #[cfg(test)]
@@ -65,6 +69,9 @@ mod tests {
         values[555] = f64::NAN;
         let smooth = local_mean(&position, &values, 1.0);
         assert!(smooth.iter().all(|x| (x - 2.0).abs() < 1e-12));
+        // Between the particles it is the same, far from them there is none.
+        let between = mean_at(&[DVec3::splat(0.3), DVec3::splat(99.0)], &position, &values, 1.0);
+        assert!((between[0] - 2.0).abs() < 1e-12 && between[1].is_nan());
         // Alone with a bad value there is nothing to average.
         assert!(local_mean(&[DVec3::ZERO], &[f64::NAN], 1.0)[0].is_nan());
     }

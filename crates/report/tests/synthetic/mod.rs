@@ -36,6 +36,14 @@ fn limbs() -> Vec<Limb> {
     ]
 }
 
+/// Centres and outward normals of the inlet, the outlet and the branch.
+fn mouths() -> [(DVec3, DVec3); 3] {
+    let limbs = limbs();
+    let end = |at: DVec3, before: DVec3| (at, (at - before).normalize());
+    let last = |line: &[DVec3]| end(line[line.len() - 1], line[line.len() - 2]);
+    [end(limbs[0].line[0], limbs[0].line[1]), last(&limbs[0].line), last(&limbs[1].line)]
+}
+
 /// Distance to a centreline and its direction at the nearest point.
 fn nearest(line: &[DVec3], x: DVec3) -> (f64, DVec3, f64) {
     let mut best = (f64::INFINITY, DVec3::X, 0.0);
@@ -201,11 +209,12 @@ fn summary(fluid: u64, names: &[&str]) -> Summary {
         openings: names
             .iter()
             .zip(shares)
-            .map(|(name, (flow, area))| OpeningSummary {
+            .zip(mouths())
+            .map(|((name, (flow, area)), (center, normal))| OpeningSummary {
                 opening: OpeningEntry {
                     name: (*name).to_owned(),
-                    center_m: [0.0; 3],
-                    normal: [0.0, 0.0, -1.0],
+                    center_m: center.to_array(),
+                    normal: normal.to_array(),
                     area_m2: area,
                     radius_m: (area / std::f64::consts::PI).sqrt(),
                 },
