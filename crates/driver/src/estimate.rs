@@ -145,15 +145,19 @@ fn length(vessel: &Vessel) -> f64 {
 
 /// Peak over mean of a developed profile.
 const PARABOLIC: f64 = 2.0;
-/// Time a fluid particle takes a core for one acoustic step, all in \[s\]: measured, see `docs/figures.md`.
-const SUBSTEP_MIXED: f64 = 0.55e-6;
-const SUBSTEP_DOUBLE: f64 = 0.78e-6;
+/// Time a core takes in mixed precision for an acoustic step of a fluid particle, for an advective step of one, and for an acoustic step
+/// of a particle of a wall at rest \[s\]: fitted to the runs of `docs/accuracy.md`, which it gives within a fifth.
+const ACOUSTIC: f64 = 0.13e-6;
+const ADVECTIVE: f64 = 2.8e-6;
+const WALL_AT_REST: f64 = 0.10e-6;
+/// How much longer all of it takes in double precision.
+const DOUBLE: f64 = 1.3;
 /// Time a particle of a solid takes a core for one sub-step \[s\]: measured, see `docs/theory/solids.md`.
 const SUBSTEP_SOLID: f64 = 0.28e-6;
 /// Time a particle of a shell takes a core for one sub-step \[s\]: measured, see `docs/theory/shells.md`.
 const SUBSTEP_SHELL: f64 = 0.34e-6;
-/// Time a particle of any body takes a core to be made \[s\].
-const GENERATION: f64 = 0.2e-3;
+/// Time a particle of any body takes a core to be made \[s\]: of the same runs.
+const GENERATION: f64 = 0.5e-3;
 /// Bytes a fluid particle takes, rows included.
 const BYTES_MIXED: f64 = 2000.0;
 const BYTES_DOUBLE: f64 = 2800.0;
@@ -188,10 +192,16 @@ pub fn cost(
     };
     let wall = if one_layer > 0.0 { 0.0 } else { layers };
     let step = numbers.acoustic_step(0.5 * numbers.reference_speed);
-    let (substep, bytes) = match precision {
-        Precision::Mixed => (SUBSTEP_MIXED, BYTES_MIXED),
-        Precision::Double => (SUBSTEP_DOUBLE, BYTES_DOUBLE),
+    let (slower, bytes) = match precision {
+        Precision::Mixed => (1.0, BYTES_MIXED),
+        Precision::Double => (DOUBLE, BYTES_DOUBLE),
     };
+    // Acoustic steps are as many as an advective one needs, a whole number.
+    let per_advective = (numbers.advective_step(numbers.reference_speed, 0.0) / step).ceil().max(1.0);
+    let at_rest = if solid.is_some() || shell.is_some() { 0.0 } else { wall };
+    let fluid_time = slower
+        * (end_time / step)
+        * (fluid * (ACOUSTIC + ADVECTIVE / per_advective) + at_rest * WALL_AT_REST);
     let solid_time = solid.map_or(0.0, |s| {
         let own = s.numbers.stable_step(s.material.wave_speed(s.numbers.density), 0.0);
         wall * (end_time / step) * (step / own).ceil() * SUBSTEP_SOLID
@@ -208,10 +218,7 @@ pub fn cost(
             shell: one_layer.round() as u64,
         },
         memory_bytes: (fluid * bytes + (wall + BYTES_SHELL * one_layer) * BYTES_WALL) as u64,
-        wall_clock_s: (fluid * (end_time / step) * substep
-            + solid_time
-            + shell_time
-            + (fluid + wall + one_layer) * GENERATION)
+        wall_clock_s: (fluid_time + solid_time + shell_time + (fluid + wall + one_layer) * GENERATION)
             / threads,
     }
 }

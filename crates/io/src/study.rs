@@ -236,7 +236,7 @@ pub struct PriceEntry {
     /// Wall time it takes \[s\].
     #[serde(deserialize_with = "json::number")]
     pub wall_clock_s: f64,
-    /// Whether the spacing lies well outside what was run.
+    /// Whether the spacing lies outside what was run by more than a third.
     pub is_extrapolated: bool,
 }
 

@@ -96,7 +96,7 @@ fn section(studied: &Studied, report: &StudyReport) -> String {
                 percent(price.error),
                 price.wall_clock_s,
                 1e3 * price.spacing_m,
-                if price.is_extrapolated { " (far outside of what was run)" } else { "" }
+                if price.is_extrapolated { " (outside of what was run)" } else { "" }
             );
         }
         text.push_str(".\n");

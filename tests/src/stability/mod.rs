@@ -86,7 +86,7 @@ pub const CASES: &[Hard] = &[
         title: "Jet of a stenosis",
         breaks: "The Mach number rises fourfold in the throat; the jet leaves a void behind it.",
         held: Held::Here(
-            "Pipe of 6 mm narrowed to a quarter of its area over 12 mm, ten spacings across the throat, Reynolds number 500 in it.",
+            "Pipe of 6 mm narrowed to a quarter of its area over 12 mm, eight spacings across the throat, Reynolds number 500 in it.",
             flows::stenosis,
         ),
     },

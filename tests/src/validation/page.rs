@@ -38,8 +38,8 @@ pub fn save(results: &Results) {
 /// What nothing on the page shows.
 const LIMITS: &str = "\
 - **Walls that move.** All of this is rigid.
-- **Vessels of persons.** All but one of what has been run are round pipes and a bifurcation made from numbers. The aorta of a person
-  is held against what its outlets have to reach, the flow within it against no measurement.
+- **Vessels of persons.** All but two of what has been run are round pipes and a bifurcation made from numbers. The carotid and the
+  aorta of a person are held against what their outlets have to reach, the flow within them against no measurement.
 - **Turbulence.** There is no turbulence model. At the peak of its beat the aorta has a Reynolds number of 6700, at which its jet
   would be turbulent; no figure here shows what is missed by that.
 - **Spacings other than these.** Errors are those of ten to twenty particles across. A branch four particles wide has none

@@ -36,10 +36,12 @@ pub(super) fn analyse(runs: &mut [StudyRun], targets: &[Target]) -> Vec<ErrorEnt
     let parts = names.iter().map(|name| {
         let alone: Vec<&Reference> =
             targets.iter().zip(&references).filter(|(t, _)| t.error == *name).map(|(_, r)| r).collect();
-        entry(runs, name, alone.first().and_then(|r| r.convergence))
+        // Errors against a run of the ladder itself fall as it is neared, at whatever order: no law is read off them.
+        let has_law = alone.iter().all(|r| r.own.is_none());
+        entry(runs, name, alone.first().and_then(|r| r.convergence), has_law)
     });
     let mut entries: Vec<ErrorEntry> = parts.collect();
-    entries.push(entry(runs, WORST, None));
+    entries.push(entry(runs, WORST, None, references.iter().all(|r| r.own.is_none())));
     entries
 }
 
@@ -134,8 +136,8 @@ pub(super) fn trade(runs: &[StudyRun], name: &str) -> Option<Trade> {
     Trade::new(&points)
 }
 
-fn entry(runs: &[StudyRun], name: &str, convergence: Option<Convergence>) -> ErrorEntry {
-    let trade = trade(runs, name);
+fn entry(runs: &[StudyRun], name: &str, convergence: Option<Convergence>, has_law: bool) -> ErrorEntry {
+    let trade = trade(runs, name).filter(|_| has_law);
     let prices = PRICED.iter().filter_map(|&error| {
         let price = trade.as_ref()?.of_error(error)?;
         Some(PriceEntry {
@@ -155,6 +157,7 @@ fn entry(runs: &[StudyRun], name: &str, convergence: Option<Convergence>) -> Err
             "the values do not converge as those of a scheme of an order would".into()
         }
         (None, Some(trade)) => format!("the error falls at order {:.2}", trade.error.exponent),
+        (None, None) if !has_law => "counted from the finest run in part: no law is told".into(),
         (None, None) => "the error does not fall along the ladder, or too few runs tell".into(),
     };
     ErrorEntry {
@@ -238,7 +241,10 @@ mod tests {
         let mut runs = [run(1.69, &[1.0]), run(1.3, &[1.2]), run(1.0, &[1.1])];
         let entries = analyse(&mut runs, &[target("p", None)]);
         assert!(runs[2].error("p").is_nan() && (runs[1].error("p") - 0.1 / 1.1).abs() < 1e-12);
-        assert!(entries[0].trend.contains("swing"));
+        assert!(
+            entries[0].trend.contains("swing") && entries[0].order.is_none() && entries[0].prices.is_empty()
+        );
+        assert!(entries[1].order.is_none(), "nor is the worst of it told");
         assert!((entries[0].uncertainty.expect("half the range") - 0.1 / 1.1).abs() < 1e-12);
     }
 

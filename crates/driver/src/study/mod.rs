@@ -187,7 +187,9 @@ impl Climb<'_> {
         let fatal = match ended {
             Ok(()) => None,
             Err(error) => {
-                row.message = Some(error.to_string());
+                // A row of the table is a line.
+                let lines = error.to_string();
+                row.message = Some(lines.lines().map(str::trim).collect::<Vec<_>>().join(" "));
                 row.status = match (&error, error.exit_code()) {
                     (DriverError::Interrupted { .. }, _) => StudyStatus::Interrupted,
                     (_, 2) => StudyStatus::Refused,

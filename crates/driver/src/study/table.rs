@@ -68,7 +68,7 @@ fn law(error: &ErrorEntry) -> String {
             percent(price.error),
             duration(price.wall_clock_s),
             length(price.spacing_m),
-            if price.is_extrapolated { ", far outside of what was run" } else { "" }
+            if price.is_extrapolated { ", outside of what was run" } else { "" }
         );
     }
     text

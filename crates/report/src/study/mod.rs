@@ -48,7 +48,7 @@ fn page(report: &StudyReport, svg: &str) -> String {
         "Made by vaso {} from <code>study.json</code>; the results of each run are in <code>runs</code> beside it.",
         escape(&report.vaso_version)
     );
-    html::page(&report.case, &body.concat(), &foot)
+    html::page(&report.case, "", &body.concat(), &foot)
 }
 
 fn percent(share: f64) -> String {
@@ -96,7 +96,7 @@ fn prices(report: &StudyReport) -> String {
                 number(1e3 * p.spacing_m, 3),
                 duration(p.wall_clock_s),
                 if p.is_extrapolated {
-                    "no: far outside of what was run"
+                    "no: outside of what was run"
                 } else {
                     "within or next to what was run"
                 }

@@ -194,7 +194,7 @@ fn lines(svg: &mut String, report: &StudyReport, x: &Axis, y: &Axis) {
         let at = y.at(error);
         let price = entry.and_then(|e| e.prices.iter().find(|p| (p.error - error).abs() < 1e-12));
         let text = price.map_or_else(String::new, |p| {
-            let mark = if p.is_extrapolated { " (far outside)" } else { "" };
+            let mark = if p.is_extrapolated { " (outside of what was run)" } else { "" };
             format!("{} % takes {}{mark}", number(100.0 * error, 3), duration(p.wall_clock_s))
         });
         let _ = writeln!(
