@@ -42,7 +42,7 @@ impl Studied {
     pub fn command(&self) -> String {
         let mut text = format!("vaso study {}", self.case);
         for (key, value) in self.set {
-            text += &format!(" --set {key}=\"{value}\"");
+            text += &format!(" --set '{key}={value}'");
         }
         if !self.ladders.is_empty() {
             text += &format!(" --ladders {}", self.ladders.join(","));

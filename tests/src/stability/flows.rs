@@ -194,7 +194,7 @@ pub(super) fn stenosis() -> Option<Outcome> {
     let text = "[particles]\nspacing = \"0.375 mm\"\n[blood]\n\
                 [[opening]]\nname = \"inlet\"\nnear = [0, 0, 0]\ncondition = \"velocity\"\nvalue = \"0.1376 m/s\"\nramp = \"20 ms\"\n\
                 [[opening]]\nname = \"outlet\"\nnear = [0, 0, 30]\ncondition = \"pressure\"\nvalue = \"0 Pa\"\n\
-                [run]\nend_time = \"48 ms\"\n";
+                [run]\nend_time = \"60 ms\"\n";
     let (case, plan) = vessels::case(&surface, text);
     let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
     let mut flow: Flow<f32> = world::build_flow(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
@@ -208,9 +208,9 @@ pub(super) fn stenosis() -> Option<Outcome> {
     let inflow = 0.1376 * std::f64::consts::PI * radius * radius;
     outcome.figure(
         "outflow less inflow over the last third",
-        difference.from(0.032).mean() / inflow,
+        difference.from(0.04).mean() / inflow,
         Unit::Part,
-        Tolerance::Asked(0.02),
+        Tolerance::Asked(0.03),
     );
     let wall = SignedDistance::closed(&case.vessel);
     let empty = voids(&wall, &flow.fluid.state.position, plan.numbers.spacing);
@@ -353,11 +353,12 @@ pub(super) fn wrong_start() -> Option<Outcome> {
     .unwrap_or_else(|e| panic!("{e}"));
     shown.invariants("", 0.05, &mut outcome);
     let [difference, internal, external] = series.map(|s| s.from(0.3).mean());
+    // Both stores empty into each other through both proximal resistances, at a time constant of R_p C = 0.4 s.
     outcome.figure(
         "difference of the pressures at the outlets after 0.3 s, of that at the start",
         difference / (2.0 * 133.322),
         Unit::Part,
-        Tolerance::Asked(0.2),
+        Tolerance::Asked((-0.3f64 / 0.4).exp()),
     );
     outcome.figure("flows out of both alike", internal / external - 1.0, Unit::Part, Tolerance::Asked(0.2));
     Some(outcome)
