@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::error::{Excerpt, Problem};
+use crate::error::{Excerpt, LONGEST_LINE, Problem};
 use crate::files::Files;
 
 /// Where a node was written.
@@ -122,7 +122,10 @@ impl Source {
                 problem.seen = shortened(written);
                 // What goes on in other lines is marked to the end of its first.
                 let marked = written.lines().next().unwrap_or_default().trim_end().chars().count();
-                problem.excerpt = Some(Excerpt { line: self.line(line).to_owned(), marked });
+                // What is too long to be shown is not kept: a line may have as many problems as words.
+                let text = self.line(line);
+                let is_shown = text.chars().nth(LONGEST_LINE).is_none();
+                problem.excerpt = is_shown.then(|| Excerpt { line: text.to_owned(), marked });
             }
         }
         problem

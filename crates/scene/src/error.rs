@@ -35,7 +35,7 @@ pub struct Problem {
     pub line: Option<usize>,
     /// Column from 1, counted in characters.
     pub column: Option<usize>,
-    /// That line; `None` for overrides, for the file as a whole and for tables of numbers.
+    /// That line; `None` for overrides, for the file as a whole, for tables of numbers, and for lines too long to be shown.
     pub excerpt: Option<Excerpt>,
     /// The override it stands in, as `key=value`, if it does not come from a file.
     pub setting: Option<String>,
@@ -70,7 +70,7 @@ impl Problem {
 }
 
 /// Longest line shown with a mark \[characters\]; a longer one would wrap and its mark stand anywhere.
-const LONGEST_LINE: usize = 160;
+pub(crate) const LONGEST_LINE: usize = 160;
 
 impl Problem {
     /// The line with its mark, where it has one that can be shown.
