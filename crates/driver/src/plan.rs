@@ -211,8 +211,8 @@ fn far_reference(range: f64, density: f64, speed: f64) -> Option<String> {
     })
 }
 
-/// Pressure over `rho u^2` that is told where the reference is given: a pipe at 2000 broke down within 12 ms, the carotid of the
-/// demo at 3 runs.
+/// Pressure over `rho u^2` that is told where the reference is given: a pipe at 1000 broke down within 12 ms (decision 11). Where between
+/// one and that a flow begins to break is not known.
 const FAR_REFERENCE: f64 = 50.0;
 
 /// A warning of the generator, with the opening by its name.

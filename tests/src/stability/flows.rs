@@ -252,9 +252,7 @@ pub(super) fn tiny_outlet() -> Option<Outcome> {
         })
     };
     let told = match at("1.1 mm") {
-        Ok((plan, _)) => {
-            plan.warnings.iter().any(|w| w.contains("eca") || w.contains("across the narrowest opening"))
-        }
+        Ok((plan, _)) => plan.warnings.iter().any(|w| w.contains("`eca`")),
         Err(_) => false,
     };
     outcome.figure(

@@ -27,8 +27,6 @@ pub enum Held {
     Here(&'static str, fn() -> Option<Outcome>),
     /// Tests elsewhere, by file and name, and what they hold.
     Elsewhere(&'static str),
-    /// Nobody yet: what is missing.
-    Open(&'static str),
 }
 
 /// All hard cases, in order.

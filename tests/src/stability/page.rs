@@ -52,9 +52,6 @@ pub fn render(results: &Results) -> String {
             Held::Elsewhere(text) => {
                 let _ = writeln!(page, "Held by {text}.");
             }
-            Held::Open(text) => {
-                let _ = writeln!(page, "**Open**: {text}.");
-            }
             Held::Here(setup, _) => {
                 let _ = writeln!(page, "{setup}\n");
                 match results.get(hard.id) {

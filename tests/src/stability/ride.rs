@@ -14,10 +14,6 @@ pub struct Ride {
     pub particles: (usize, usize),
     /// Largest speed of any particle at any advective step \[m/s\].
     pub top_speed: f64,
-    /// When \[s\] and where \[m\] that was.
-    pub top: (f64, DVec3),
-    /// Volume that came in through all openings, and that went out \[m^3\].
-    pub volume: (f64, f64),
     /// Smallest distance between two particles at the end \[spacings\].
     pub least_distance: f64,
     /// Largest density deviation \[-\].
@@ -57,23 +53,16 @@ pub fn ride<W: MovingWall>(
     mut see: impl FnMut(&Flow<f32, W>),
 ) -> Result<Ride, Diverged> {
     let start = flow.fluid.state.len();
-    let (mut top_speed, mut top) = (0.0, (0.0, DVec3::ZERO));
+    let mut top_speed: f64 = 0.0;
     while flow.time < end {
         flow.step(end)?;
-        for (x, v) in flow.fluid.state.position.iter().zip(flow.fluid.state.velocity.iter()) {
-            if v.length() > top_speed {
-                (top_speed, top) = (v.length(), (flow.time, *x));
-            }
-        }
+        top_speed = flow.fluid.state.velocity.iter().map(|v| v.length()).fold(top_speed, f64::max);
         see(flow);
     }
-    let counters = || flow.openings.ports().iter().map(|p| p.counters.outflow_volume);
     let spacing = flow.fluid.numbers().spacing;
     Ok(Ride {
         particles: (start, flow.fluid.state.len()),
         top_speed,
-        top,
-        volume: (counters().map(|v| (-v).max(0.0)).sum(), counters().map(|v| v.max(0.0)).sum()),
         least_distance: least_distance(&flow.fluid.state.position) / spacing,
         density: flow.watch.max_density_error,
         mach: flow.watch.max_mach,
