@@ -12,9 +12,10 @@ use crate::error::SceneError;
 use crate::files::Files;
 use crate::kind::Kind::{Choice, Name, Quantity, Tables, Text};
 use crate::kind::Presence::{Default, Optional, Required};
-use crate::kind::{Key, Kind, Presence, Range, When};
+use crate::kind::{Key, Presence, Range, When};
 use crate::reader::Reader;
 use crate::scene::Scene;
+use crate::schema::{key, only};
 use crate::section::Section;
 use crate::words::{Word, words};
 
@@ -70,20 +71,6 @@ pub struct Expectation {
     pub scale: Option<f64>,
     /// Where the value is from.
     pub source: Option<String>,
-}
-
-const fn key(path: &'static str, kind: Kind, presence: Presence, meaning: &'static str) -> Key {
-    Key { path, kind, presence, when: &[], meaning }
-}
-
-const fn only(
-    when: &'static [When],
-    path: &'static str,
-    kind: Kind,
-    presence: Presence,
-    meaning: &'static str,
-) -> Key {
-    Key { path, kind, presence, when, meaning }
 }
 
 const AT_OPENING: &[When] = &[When { key: "of", words: &["flow", "pressure", "pressure-drop"] }];

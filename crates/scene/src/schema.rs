@@ -27,11 +27,11 @@ words! {
 
 const ANY_U64: Kind = Count(0, u64::MAX as i128);
 
-const fn key(path: &'static str, kind: Kind, presence: Presence, meaning: &'static str) -> Key {
+pub(crate) const fn key(path: &'static str, kind: Kind, presence: Presence, meaning: &'static str) -> Key {
     Key { path, kind, presence, when: &[], meaning }
 }
 
-const fn only(
+pub(crate) const fn only(
     when: &'static [When],
     path: &'static str,
     kind: Kind,
