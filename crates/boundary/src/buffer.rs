@@ -17,7 +17,7 @@ use vaso_particles::visit;
 /// Distance beyond the buffer, in spacings, over which its particles stay its own: without it a
 /// particle moving to and fro would be copied at every turn, and none at all while the label is
 /// taken away at the edge.
-const FRINGE: f64 = 0.5;
+pub(crate) const FRINGE: f64 = 0.5;
 
 impl Openings {
     /// Labels the particles in the buffers at the start of a run.
@@ -123,6 +123,7 @@ impl Openings {
 
     /// Finds the particles near caps, after the fluid has been sorted; an advective step begins.
     pub fn locate(&mut self, state: &FluidState) {
+        self.find_sections(state);
         let length = self.buffer_length();
         // Particles in the fringe still carry the label of the buffer, and its flow.
         let reach = (length + FRINGE * self.spacing).max(2.0 * self.numbers.smoothing_length);
@@ -150,6 +151,7 @@ impl Openings {
                     // Whatever the buffer owns moves as asked, see `apply`.
                     is_imposed: state.opening[i] == k as i32 && !ports[k].condition.sets_pressure(),
                     in_buffer: s <= length,
+                    takes_pressure: s <= length && ports[k].condition.sets_pressure(),
                     share: ((s - first) / length).clamp(0.0, 1.0),
                 })
             },

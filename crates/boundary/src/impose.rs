@@ -25,6 +25,7 @@ impl Openings {
         let imposed: Vec<f64> =
             (0..self.ports.len()).map(|k| self.pressure_value(k, t).unwrap_or(0.0) - reference).collect();
         let inflow: Vec<Amplitudes> = self.ports.iter().map(|port| port.amplitudes(t)).collect();
+        let behind = self.density_behind(&fluid.state);
         let mut waves = self.waves.as_slice();
         let mut sums = vec![Sums::default(); self.ports.len()];
         let mut top: f64 = 0.0;
@@ -57,6 +58,10 @@ impl Openings {
                     Some(outward * zone.normal)
                 }
             };
+            if let (true, Some(density_change)) = (zone.is_imposed, behind[k]) {
+                fluid.state.density_change[i] = density_change;
+                fluid.state.density_rate[i] = 0.0;
+            }
             if let Some(velocity) = velocity {
                 fluid.set_velocity(i, velocity, dt);
                 top = top.max(velocity.length());
@@ -95,8 +100,8 @@ impl Openings {
     /// `t` \[s\] before an advective step; needs [`Self::locate`] before it.
     ///
     /// Their continuity looks along the cap only, see `CapZone`: nothing else ties their pressure to that of the boundary, and what it is
-    /// off by would drive them for as long as they stay.
-    pub fn tie(&self, state: &mut FluidState, t: f64) {
+    /// off by would drive them for as long as they stay. `part` is that of a full advective step which the last one was.
+    pub fn tie(&self, state: &mut FluidState, t: f64, part: f64) {
         let reference = self.reference_pressure(t);
         let compliance = self.numbers.sound_speed.powi(-2);
         let imposed: Vec<Option<f64>> = (0..self.ports.len())
@@ -106,7 +111,7 @@ impl Openings {
             let (Some(density_change), true) = (imposed[zone.opening as usize], zone.in_buffer) else {
                 continue;
             };
-            let share = TIE * (1.0 - zone.depth / self.spacing).clamp(0.0, 1.0);
+            let share = part * TIE * (1.0 - zone.depth / self.spacing).clamp(0.0, 1.0);
             let own = &mut state.density_change[zone.particle as usize];
             *own += share * (density_change - *own);
         }

@@ -8,6 +8,7 @@ pub mod outlet;
 pub mod port;
 pub mod profile;
 mod room;
+mod section;
 pub mod tune;
 pub mod waveform;
 

@@ -42,6 +42,8 @@ pub struct Openings {
     pub(crate) shape: Vec<f64>,
     /// Those of the harmonics, one zone entry after the other where its inlet has any.
     pub(crate) waves: Vec<Complex64>,
+    /// Particles behind the buffer of each velocity opening, see [`Self::density_behind`].
+    pub(crate) behind: Vec<Vec<u32>>,
 }
 
 impl Openings {
@@ -101,6 +103,7 @@ impl Openings {
             zones: Vec::new(),
             shape: Vec::new(),
             waves: Vec::new(),
+            behind: Vec::new(),
         }
     }
 
@@ -139,6 +142,7 @@ impl Openings {
             zones: _,
             shape: _,
             waves: _,
+            behind: _,
         } = self;
         memory.counts("openings.next_id", &mut [next_id]);
         for (k, port) in ports.iter_mut().enumerate() {

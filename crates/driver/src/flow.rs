@@ -189,7 +189,8 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         ledger.time(Stage::Exchange, || {
             fluid.sort();
             openings.locate(&fluid.state);
-            openings.tie(&mut fluid.state, self.time);
+            let part = fluid.part();
+            openings.tie(&mut fluid.state, self.time, part);
         });
         if let Some(wall) = wall {
             ledger.time(Stage::Coupling, || wall.show(fluid));
@@ -204,9 +205,11 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
             ledger.time(Stage::Coupling, || wall.take_drag(fluid));
         }
         ledger.time(Stage::Viscosity, || fluid.offsets());
-        let duration = fluid.advective_step().min(until - self.time);
+        let full = fluid.advective_step();
+        let duration = full.min(until - self.time);
+        let reach = fluid.numbers().reach();
 
-        let mut elapsed = 0.0;
+        let (mut elapsed, mut travelled) = (0.0, 0.0);
         let mut dt = fluid.numbers().acoustic_step(fluid.top_speed()).min(duration);
         ledger.time(Stage::Momentum, || fluid.begin_acoustic(dt));
         loop {
@@ -226,18 +229,20 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
             self.particle_substeps += fluid.state.len() as u64;
             // A remainder below rounding is no step of its own.
             let left = duration - elapsed;
-            let next = fluid.numbers().acoustic_step(inner.max(near)).min(left);
-            let goes_on = left > 1e-9 * duration;
+            let top = inner.max(near);
+            travelled += dt * top;
+            let next = fluid.numbers().acoustic_step(top).min(left);
+            // What has sped up meanwhile goes no further with the neighbours it has than what was fast before.
+            let goes_on = left > 1e-9 * duration && travelled < reach;
             ledger.time(Stage::Continuity, || fluid.continuity(dt, goes_on.then_some(next)));
             if !goes_on {
                 break;
             }
             dt = next;
         }
-        self.time =
-            if until - (self.time + duration) < 1e-9 * duration { until } else { self.time + duration };
+        self.time = if until - (self.time + elapsed) < 1e-9 * duration { until } else { self.time + elapsed };
         self.advective_steps += 1;
-        ledger.time(Stage::Transport, || fluid.transport(openings.zones()));
+        ledger.time(Stage::Transport, || fluid.transport(openings.zones(), elapsed / full));
         ledger.time(Stage::Guard, || self.readings = openings.measure(&fluid.state, self.time));
         self.guard()
     }

@@ -137,10 +137,10 @@ impl Plan {
             numbers.viscosity = law.extremes()[0];
         }
         numbers.smoothing_length = scene.numerics.smoothing_length * spacing;
-        numbers.density_blend =
-            scene.numerics.density_blend.unwrap_or(if across <= 12.0 { 0.2 } else { 0.1 });
+        if let Some(share) = scene.numerics.density_blend {
+            numbers.density_blend = share;
+        }
         numbers.hold_mass = scene.numerics.hold_mass;
-        numbers.tensile_control = scene.numerics.tensile_control;
 
         let mut warnings = case.vessel.audit.notices.clone();
         let settings = crate::bodies::settings(scene);

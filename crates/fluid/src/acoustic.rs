@@ -4,7 +4,7 @@ use crate::fluid::{FAR, Fluid, maximum, numbered, propagating_max};
 use crate::law::density::{CapDivergence, Divergence};
 use crate::law::pressure::{self, FluidPressure, WallPressureForce};
 use crate::law::wall_pressure::WallPressure;
-use crate::moving::{AtRest, AtRestUnderTension, Wall};
+use crate::moving::{AtRest, Wall};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
@@ -77,9 +77,7 @@ impl<R: Real> Fluid<R> {
     /// end of the step. Returns the top speed \[m/s\].
     pub fn kick(&mut self, dt: f64) -> f64 {
         match self.moving.take() {
-            None if self.numbers.tensile_control => self.kick_along(&AtRestUnderTension, dt),
             None => self.kick_along(&AtRest, dt),
-            // The sum always: the wall has to get what it gives.
             Some(moving) => {
                 let top = self.kick_along(&*moving, dt);
                 self.moving = Some(moving);
@@ -88,7 +86,7 @@ impl<R: Real> Fluid<R> {
         }
     }
 
-    fn kick_along<W: Wall>(&mut self, along: &W, dt: f64) -> f64 {
+    fn kick_along(&mut self, along: &impl Wall, dt: f64) -> f64 {
         self.elapsed += dt;
         let share = dt / self.elapsed;
         let numbers = self.numbers;
@@ -146,7 +144,7 @@ impl<R: Real> Fluid<R> {
                     let pressure = numbers.pressure(change);
                     mean[k] += share * (pressure - mean[k]);
                     let pressure_force =
-                        gradient * frozen.correction.mul(neighbours) + W::own_pressure(pressure, frozen);
+                        gradient * frozen.correction.mul(neighbours) - pressure * frozen.own_pressure;
                     let dissipation = gradient * DVec3::new(f[3], f[4], f[5]);
                     let wall_force = along.dissipation(i, velocity[k], frozen, &numbers);
                     let acceleration =

@@ -17,6 +17,8 @@ pub struct CapZone {
     pub is_imposed: bool,
     /// Whether the particle is in the buffer, where density follows continuity alone.
     pub in_buffer: bool,
+    /// Whether the pressure of the opening enters at the particle, by what its support lacks.
+    pub takes_pressure: bool,
     /// Part by which the particle counts in the number that the vessel holds: its depth over the length of the buffer, at most 1. The
     /// number then changes smoothly while layers cross the cap.
     pub share: f64,

@@ -21,7 +21,8 @@ pub(crate) struct Frozen {
     pub fluid_gradient: DVec3,
     /// `sum V grad W` over the wall \[1/m\].
     pub wall_gradient: DVec3,
-    /// `sum V B_j grad W` over the fluid plus `B_i` times that over the wall: what the own pressure multiplies \[1/m\].
+    /// What the own pressure multiplies \[1/m\]: `-B_i sum V grad W`, so that pairs have the difference of their pressures; where
+    /// [`Self::takes_pressure`], `sum V B_j grad W` over the fluid plus `B_i` times that over the wall, the sum.
     pub own_pressure: DVec3,
     /// `sum V (B_i + B_j) grad W`, zero where the support is complete \[1/m\].
     pub support: DVec3,
@@ -40,6 +41,8 @@ pub(crate) struct Frozen {
     /// Depth behind a cap \[supports\] as [`CapDivergence`](crate::law::density::CapDivergence) takes it; [`FAR`] away from
     /// caps.
     pub cap_depth: f64,
+    /// Whether the pressure of an opening enters here, see [`CapZone::takes_pressure`].
+    pub takes_pressure: bool,
 }
 
 /// [`Frozen::cap_depth`] away from caps.
@@ -67,6 +70,7 @@ impl Default for Frozen {
             wall_area: 0.0,
             inverse_distance: 0.0,
             cap_depth: FAR,
+            takes_pressure: false,
         }
     }
 }
@@ -107,6 +111,8 @@ pub struct Fluid<R> {
     pub(crate) capacity: Option<f64>,
     /// Time since the first of the acoustic steps \[s\].
     pub(crate) elapsed: f64,
+    /// Part of a full advective step that the last one was.
+    pub(crate) part: f64,
     wall_distance: Box<dyn WallDistance>,
     reach: f64,
 }
@@ -145,6 +151,7 @@ impl<R: Real> Fluid<R> {
             lattice_sum: kernel.lattice_sum(numbers.spacing),
             capacity: None,
             elapsed: 0.0,
+            part: 1.0,
             wall_distance,
             reach: kernel.support(),
         }
@@ -153,6 +160,11 @@ impl<R: Real> Fluid<R> {
     /// The numbers of the run.
     pub fn numbers(&self) -> &Numbers {
         &self.numbers
+    }
+
+    /// Part of a full advective step that the last one was, see [`Self::transport`].
+    pub fn part(&self) -> f64 {
+        self.part
     }
 
     /// Neighbour pairs of the last search: among the fluid, of the fluid with the wall, of the wall with the fluid.
@@ -205,11 +217,13 @@ impl<R: Real> Fluid<R> {
             zone_of: _,
             lattice_sum: _,
             elapsed: _,
+            part,
             wall_distance: _,
             reach: _,
         } = self;
         memory.columns("fluid", state);
         memory.optional("fluid.capacity_m3", capacity);
+        memory.fields("fluid.part", &mut [part]);
     }
 
     /// Puts the particles in cell order.
@@ -250,8 +264,10 @@ impl<R: Real> Fluid<R> {
             for (k, frozen) in frozen.iter_mut().enumerate() {
                 *frozen = Frozen::default();
                 let i = c * CHUNK + k;
-                if zone_of[i] != 0 {
-                    frozen.cap_depth = zones[zone_of[i] as usize - 1].open_depth() / reach;
+                if let Some(zone) = zone_of[i].checked_sub(1) {
+                    let zone = &zones[zone as usize];
+                    frozen.cap_depth = zone.open_depth() / reach;
+                    frozen.takes_pressure = zone.takes_pressure;
                 }
                 if !row.is_row_empty(k) {
                     let moved = displacement.map_or(DVec3::ZERO, |u| u[i]);

@@ -50,7 +50,7 @@ impl<R: Real> Fluid<R> {
         let capacity = *self.capacity.get_or_insert(before.held / (rho0 + mean));
         let lacking = before.held / capacity - rho0 - mean;
         let brought = (after.change - before.change) / before.mass;
-        let rise = self.numbers.density_blend * lacking - brought;
+        let rise = self.part * self.numbers.density_blend * lacking - brought;
         let zone_of = &self.zone_of;
         self.state.density_change.par_iter_mut().enumerate().with_min_len(4096).for_each(|(i, change)| {
             if !in_buffer(zones, zone_of[i]) {

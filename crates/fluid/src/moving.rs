@@ -3,7 +3,7 @@
 //! Positions are taken once an advective step ([`Fluid::take_wall`]), velocities after each acoustic step of the wall
 //! ([`Fluid::set_wall_velocity`]). A fluid whose wall is at rest has none of this.
 
-use crate::fluid::{FAR, Fluid, Frozen, first_of, numbered};
+use crate::fluid::{Fluid, Frozen, first_of, numbered};
 use crate::law::moving::{self, AcceleratedWallPressure, SurfaceDisplacement, WallVelocity};
 use crate::numbers::Numbers;
 use glam::DVec3;
@@ -41,8 +41,6 @@ pub(crate) trait Wall: Sync {
     fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3;
     /// Divergence between particle `i` and the wall, negative where they part \[1/s\].
     fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64;
-    /// Force of a particle's own `pressure` \[Pa\] on it, by volume \[N/m^3\]: what uneven neighbours leave of it.
-    fn own_pressure(pressure: f64, frozen: &Frozen) -> DVec3;
 }
 
 /// A wall at rest.
@@ -62,37 +60,6 @@ impl Wall for AtRest {
     fn convergence(&self, _: usize, v: DVec3, frozen: &Frozen) -> f64 {
         // The mirrored velocity doubles the part of the wall.
         2.0 * v.dot(frozen.wall_gradient)
-    }
-
-    #[inline(always)]
-    fn own_pressure(pressure: f64, frozen: &Frozen) -> DVec3 {
-        -pressure * frozen.own_pressure
-    }
-}
-
-/// A wall at rest with a fluid whose pairs have the difference of their pressures, not the sum, below the reference pressure (Sun,
-/// Colagrossi, Marrone, Antuono and Zhang 2018): a sum that pulls gathers particles.
-pub(crate) struct AtRestUnderTension;
-
-impl Wall for AtRestUnderTension {
-    #[inline(always)]
-    fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3 {
-        AtRest.dissipation(i, v, frozen, numbers)
-    }
-
-    #[inline(always)]
-    fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        AtRest.convergence(i, v, frozen)
-    }
-
-    /// Near caps the sum stays: the difference would miss the side beyond.
-    #[inline(always)]
-    fn own_pressure(pressure: f64, frozen: &Frozen) -> DVec3 {
-        if pressure < 0.0 && frozen.cap_depth >= FAR {
-            pressure * (frozen.support - frozen.own_pressure)
-        } else {
-            -pressure * frozen.own_pressure
-        }
     }
 }
 
@@ -116,11 +83,6 @@ impl<R: Real> Wall for Moving<R> {
     #[inline(always)]
     fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
         2.0 * (v.dot(frozen.wall_gradient) + self.flux[i])
-    }
-
-    #[inline(always)]
-    fn own_pressure(pressure: f64, frozen: &Frozen) -> DVec3 {
-        -pressure * frozen.own_pressure
     }
 }
 

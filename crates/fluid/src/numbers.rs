@@ -25,8 +25,6 @@ pub struct Numbers {
     pub density_blend: f64,
     /// Where walls are at rest, the mean density follows the mass in the vessel instead of the kernel sum.
     pub hold_mass: bool,
-    /// Where walls are at rest, particles below the reference pressure take the difference of pressures instead of their sum.
-    pub tensile_control: bool,
     /// Limiter of the velocity-jump dissipation; at 100 it is in effect the full acoustic jump.
     pub dissipation_limiter: f64,
     /// Strength of the transport-velocity shift a step.
@@ -44,7 +42,7 @@ const VISCOUS: f64 = 0.125;
 
 impl Numbers {
     /// Defaults for blood of given density, viscosity and top speed at a spacing: c = 10 times the
-    /// speed, h = 1.3 dp, density blend 0.1, limiter 100, shift 0.2 within 0.05 dp.
+    /// speed, h = 1.3 dp, density blend 0.03, limiter 100, shift 0.2 within 0.05 dp.
     pub fn new(rest_density: f64, viscosity: f64, reference_speed: f64, spacing: f64) -> Self {
         Self {
             rest_density,
@@ -54,9 +52,8 @@ impl Numbers {
             reference_speed,
             spacing,
             smoothing_length: 1.3 * spacing,
-            density_blend: 0.1,
+            density_blend: 0.03,
             hold_mass: false,
-            tensile_control: false,
             dissipation_limiter: 100.0,
             shift_strength: 0.2,
             shift_limit: 0.05,
@@ -73,7 +70,12 @@ impl Numbers {
     pub fn advective_step(&self, speed: f64, acceleration: f64) -> f64 {
         let h = self.smoothing_length;
         let fastest = self.reference_speed.max(speed).max((4.0 * h * acceleration).sqrt());
-        (ADVECTIVE * h / fastest).min(VISCOUS * h * h * self.rest_density / self.viscosity)
+        (self.reach() / fastest).min(VISCOUS * h * h * self.rest_density / self.viscosity)
+    }
+
+    /// Way \[m\] that no particle may go with the neighbours of one search: an advective step ends there.
+    pub fn reach(&self) -> f64 {
+        ADVECTIVE * self.smoothing_length
     }
 
     /// Acoustic step \[s\] at top speed \[m/s\].

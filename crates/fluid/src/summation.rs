@@ -27,7 +27,7 @@ impl<R: Real> Fluid<R> {
         });
 
         let held = self.sums_to_hold(zones);
-        let omega = self.numbers.density_blend;
+        let omega = self.part * self.numbers.density_blend;
         let value = self.kernel.value_scale();
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();

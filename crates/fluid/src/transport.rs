@@ -37,10 +37,14 @@ impl<R: Real> Fluid<R> {
     /// Near caps only the part along the cap is taken: the missing support beyond it would push particles out. Where blood goes in
     /// and out slowly nothing else parts particles that have come close along the normal, so pairs that are too close are moved
     /// apart there ([`Separation`]). Both move by the same, so no volume is carried along.
-    pub fn transport(&mut self, zones: &[CapZone]) {
+    ///
+    /// `part` is that of a full advective step which this one was: shift and blend of the density keep their pace in time where a step
+    /// ends early.
+    pub fn transport(&mut self, zones: &[CapZone], part: f64) {
+        self.part = part;
         let numbers = self.numbers;
         let h2 = numbers.smoothing_length * numbers.smoothing_length;
-        let limit = numbers.shift_limit * numbers.spacing;
+        let limit = part * numbers.shift_limit * numbers.spacing;
         let support = self.kernel.support();
         let law = Separation { distance: CROWDED * numbers.spacing / support };
         let (isa, zone_of, next) = (self.isa, &self.zone_of, &self.next);
@@ -67,10 +71,10 @@ impl<R: Real> Fluid<R> {
                         let normal = zones[zone as usize].normal;
                         residual -= residual.dot(normal) * normal;
                         let volume = next.as_slice()[c * CHUNK + k][3].widen();
-                        parting = 0.5 * PARTING * support / volume * DVec3::from_array(crowd[k]);
+                        parting = 0.5 * part * PARTING * support / volume * DVec3::from_array(crowd[k]);
                     }
                     let chi = (400.0 * h2 * residual.length_squared()).min(1.0);
-                    let shift = -2.0 * numbers.shift_strength * h2 * chi * residual;
+                    let shift = -2.0 * part * numbers.shift_strength * h2 * chi * residual;
                     let way = shift.clamp_length_max(limit);
                     *x += way + parting;
                     if zone_of[c * CHUNK + k] == 0 {

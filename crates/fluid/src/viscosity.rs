@@ -186,11 +186,13 @@ impl<R: Real> Fluid<R> {
     }
 }
 
-/// `K' = sum V B_j grad W + B_i g_wall` and `k = K' + B_i (g_fluid + g_wall)`.
+/// `k = K' + B_i (g_fluid + g_wall)` with `K' = sum V B_j grad W + B_i g_wall`, and what the own pressure multiplies.
 fn set_gradient_sums(frozen: &mut Frozen, neighbours: DVec3) {
     let b = frozen.correction;
-    frozen.own_pressure = neighbours + b.mul(frozen.wall_gradient);
-    frozen.support = frozen.own_pressure + b.mul(frozen.fluid_gradient + frozen.wall_gradient);
+    let own = b.mul(frozen.fluid_gradient + frozen.wall_gradient);
+    let mirrored = neighbours + b.mul(frozen.wall_gradient);
+    frozen.support = mirrored + own;
+    frozen.own_pressure = if frozen.takes_pressure { mirrored } else { -own };
 }
 
 /// Corrected velocity gradient \[1/s\], column by column those of the components; `raw` is `sum V (v_j - v_i) (x) grad W`.

@@ -164,7 +164,6 @@ impl Builder<'_> {
             sound_speed_factor: section.number("sound_speed_factor"),
             density_blend: section.optional_number("density_blend"),
             hold_mass: section.flag("hold_mass"),
-            tensile_control: section.flag("tensile_control"),
             smoothing_length: section.number("smoothing_length"),
             seed: section.count("seed"),
             reference_pressure: section.optional_number("reference_pressure"),

@@ -177,8 +177,6 @@ pub struct Numerics {
     pub density_blend: Option<f64>,
     /// The mean density of a vessel at rest follows the mass in it instead of the kernel sum.
     pub hold_mass: bool,
-    /// Particles of a vessel at rest that are below the reference pressure take the difference of pressures.
-    pub tensile_control: bool,
     /// Smoothing length in spacings; the support radius is twice this.
     pub smoothing_length: f64,
     /// Seed of everything random.

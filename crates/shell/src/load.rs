@@ -135,14 +135,15 @@ impl Loads {
         }
     }
 
-    /// Draws velocities along the normal to those the fluid has answered, at the end of a sub-step `dt` \[s\].
-    pub(crate) fn resist<R: Real>(&self, state: &mut ShellState, forces: &Forces<R>, dt: f64) {
+    /// Draws velocities to those the fluid has answered, at the end of a sub-step `dt` \[s\].
+    ///
+    /// In the plane, too: the pressure of an uneven fluid pushes along the wall as well, and a thin wall has as little mass for that.
+    pub(crate) fn resist(&self, state: &mut ShellState, dt: f64) {
         for part in &self.impedance {
             let i = part.at as usize;
-            let normal = forces.area_vector(i).normalize_or_zero();
             let weight = dt * part.coefficient / state.mass[i];
-            let lag = normal.dot(part.start - state.velocity[i]);
-            state.velocity[i] += weight / (1.0 + weight) * lag * normal;
+            let lag = part.start - state.velocity[i];
+            state.velocity[i] += weight / (1.0 + weight) * lag;
         }
     }
 
