@@ -1,7 +1,7 @@
 //! The acoustic step: position Verlet with the configuration frozen (drift, kick, drift).
 
 use crate::fluid::{FAR, Fluid, maximum, numbered, propagating_max};
-use crate::law::density::{CapDivergence, Divergence};
+use crate::law::density::{CapDivergence, Divergence, DivergenceBesideWall, PARTS};
 use crate::law::pressure::{self, FluidPressure, WallPressureForce};
 use crate::law::wall_pressure::WallPressure;
 use crate::moving::{AtRest, Wall};
@@ -31,6 +31,12 @@ impl<R: Real> Fluid<R> {
     /// First half of an acoustic step `dt` \[s\]: density and position to the middle, pressure from the density.
     pub fn begin_acoustic(&mut self, dt: f64) {
         self.elapsed = 0.0;
+        let frozen = &self.frozen;
+        self.second.fill(|i| {
+            let [x, y, z] = frozen[i].wall_normal.to_array().map(R::pack);
+            let zero = R::pack(0.0);
+            [x, y, z, zero, zero, zero, zero, zero]
+        });
         let numbers = self.numbers;
         let state = &mut self.state;
         (
@@ -184,7 +190,8 @@ impl<R: Real> Fluid<R> {
         let (isa, frame) = (self.isa, &self.frame);
         let sharpness = self.kernel.support() / numbers.spacing;
         let next = &self.next;
-        let gather = Gather { frame, own: next, other: next, own_second: None, other_second: None };
+        let gather =
+            Gather { frame, own: next, other: next, own_second: Some(&self.second), other_second: None };
         let state = &mut self.state;
         let velocity = &state.velocity;
         (
@@ -198,25 +205,26 @@ impl<R: Real> Fluid<R> {
             .into_par_iter()
             .enumerate()
             .for_each(|(c, (density_change, rate, position, current, frozen, row))| {
-                let mut sums = [[0.0; 1]; CHUNK];
-                if frozen.iter().all(|f| f.cap_depth >= FAR) {
-                    sweep(isa, &Divergence, &gather, numbered(row, c), Store::None, &mut sums);
+                let mut parts = [[0.0; PARTS]; CHUNK];
+                let row = numbered(row, c);
+                if frozen.iter().any(|f| f.cap_depth < FAR) {
+                    let law = CapDivergence { sharpness };
+                    sweep(isa, &law, &gather, row, Store::None, &mut parts);
+                } else if frozen.iter().any(|f| f.along_wall > 1.0) {
+                    sweep(isa, &DivergenceBesideWall, &gather, row, Store::None, &mut parts);
                 } else {
-                    sweep(
-                        isa,
-                        &CapDivergence { sharpness },
-                        &gather,
-                        numbered(row, c),
-                        Store::None,
-                        &mut sums,
-                    );
+                    let mut sums = [[0.0; 1]; CHUNK];
+                    sweep(isa, &Divergence, &gather, row, Store::None, &mut sums);
+                    parts.iter_mut().zip(sums).for_each(|(parts, [sum])| parts[0] = sum);
                 }
                 for k in 0..density_change.len() {
                     let i = c * CHUNK + k;
                     let v = velocity[i];
                     let rho = numbers.rest_density + density_change[k];
                     let to_wall = along.convergence(i, v, &frozen[k]);
-                    let convergence = to_wall - gradient * sums[k][0] - frozen[k].false_convergence;
+                    let [all, normal] = parts[k];
+                    let among = frozen[k].along_wall * (all - normal) + normal;
+                    let convergence = to_wall - gradient * among - frozen[k].false_convergence;
                     rate[k] += rho * convergence;
                     density_change[k] += 0.5 * dt * rate[k];
                     if let Some(dt) = dt_next {

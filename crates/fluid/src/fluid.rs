@@ -34,6 +34,8 @@ pub(crate) struct Frozen {
     pub fluid_moment: Sym3,
     /// What continuity takes for compression in a flow that only shears, by uneven neighbours \[1/s\]; zero near caps.
     pub false_convergence: f64,
+    /// What the sum over the fluid finds of a divergence along the wall has to be multiplied by, as the fluid ends there; 1 away from walls.
+    pub along_wall: f64,
     /// `sum V |dW/dr|` over the wall \[1/m\].
     pub wall_area: f64,
     /// Inverse distance to the wall \[1/m\].
@@ -67,6 +69,7 @@ impl Default for Frozen {
             wall_normal: DVec3::ZERO,
             fluid_moment: Sym3([0.0; 6]),
             false_convergence: 0.0,
+            along_wall: 1.0,
             wall_area: 0.0,
             inverse_distance: 0.0,
             cap_depth: FAR,

@@ -25,7 +25,7 @@ pub(crate) struct Moving<R> {
     pub(crate) displacement: Vec<DVec3>,
     /// Velocity of the wall near each fluid particle \[m/s\].
     pub(crate) velocity: Vec<DVec3>,
-    /// `sum V v_a . grad W` at each fluid particle, with the other sign \[1/s\].
+    /// `sum V (v_a . n) (grad W . n)` at each fluid particle, with the other sign \[1/s\].
     flux: Vec<f64>,
     /// Bend of the velocity near the wall \[1/(m s)\], for the viscous force on it.
     pub(crate) bend: Vec<DVec3>,
@@ -59,7 +59,7 @@ impl Wall for AtRest {
     #[inline(always)]
     fn convergence(&self, _: usize, v: DVec3, frozen: &Frozen) -> f64 {
         // The mirrored velocity doubles the part of the wall.
-        2.0 * v.dot(frozen.wall_gradient)
+        2.0 * v.dot(frozen.wall_normal) * frozen.wall_gradient.dot(frozen.wall_normal)
     }
 }
 
@@ -82,7 +82,7 @@ impl<R: Real> Wall for Moving<R> {
 
     #[inline(always)]
     fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        2.0 * (v.dot(frozen.wall_gradient) + self.flux[i])
+        2.0 * (v.dot(frozen.wall_normal) * frozen.wall_gradient.dot(frozen.wall_normal) + self.flux[i])
     }
 }
 
@@ -173,6 +173,9 @@ impl<R: Real> Fluid<R> {
         // Volumes and the like are filled in by the summation.
         current.fill(|i| self.record(i, 0.0, 0.0));
         self.current = current;
+        // The normals that the flux wants are known when the acoustic steps begin.
+        self.second.resize(n);
+        self.second.fill(|_| [R::pack(0.0); 8]);
         let Some(moving) = &mut self.moving else { return };
         moving.displacement.clear();
         moving.displacement.resize(n, DVec3::ZERO);
@@ -210,7 +213,7 @@ impl<R: Real> Fluid<R> {
             frame: &self.frame,
             own: &self.current,
             other: &self.wall.dynamic,
-            own_second: None,
+            own_second: Some(&self.second),
             other_second: None,
         };
         let isa = self.isa;

@@ -72,6 +72,7 @@ impl<R: Real> Fluid<R> {
                     frozen.wall_gradient = -gradient * DVec3::new(w[1], w[2], w[3]);
                     frozen.wall_area = gradient * w[10];
                     frozen.fluid_moment = Sym3(std::array::from_fn(|q| gradient * support * f[4 + q]));
+                    frozen.along_wall = along_wall(&moment, &frozen.fluid_moment, frozen.wall_normal);
                     second[k] = pack_sym(&frozen.correction.0);
                 }
             });
@@ -80,6 +81,18 @@ impl<R: Real> Fluid<R> {
             self.hold_mean(before, zones);
         }
     }
+}
+
+/// Most that a divergence along the wall is multiplied by: in a corner little fluid is left to tell it from.
+const MAX_ALONG_WALL: f64 = 3.0;
+
+/// Moment along a wall of `normal` over that of the fluid alone.
+fn along_wall(Sym3(all): &Sym3, Sym3(fluid): &Sym3, normal: DVec3) -> f64 {
+    if normal == DVec3::ZERO {
+        return 1.0;
+    }
+    let along = |m: &[f64; 6]| m[0] + m[1] + m[2] - normal.dot(Sym3(*m).mul(normal));
+    (along(all) / along(fluid).max(f64::MIN_POSITIVE)).clamp(1.0, MAX_ALONG_WALL)
 }
 
 /// [`Moments`] with the neighbour's volume as weight: the scalar of a wall record is not a volume.

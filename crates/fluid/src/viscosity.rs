@@ -84,7 +84,7 @@ impl<R: Real> Fluid<R> {
                     set_gradient_sums(frozen, neighbours);
                     slopes[k] = slope;
                     if is_inner {
-                        frozen.false_convergence = false_convergence(&slope, frozen);
+                        frozen.false_convergence = frozen.along_wall * false_convergence(&slope, frozen);
                     }
                 }
             });

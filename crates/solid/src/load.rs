@@ -29,8 +29,6 @@ pub(crate) struct Tissue {
 pub(crate) struct Impedance {
     /// Place in the state.
     pub(crate) at: u32,
-    /// Unit normal in the reference configuration.
-    pub(crate) normal: DVec3,
     /// Share of the impedance times area that is taken implicitly \[N s/m\].
     pub(crate) coefficient: f64,
     /// Velocity at the start of the step of the fluid \[m/s\].
@@ -108,14 +106,16 @@ impl Loads {
         }
     }
 
-    /// Draws velocities along the normal of the face to those the fluid has answered, at the end of a sub-step `dt` \[s\].
-    pub(crate) fn resist(&self, state: &mut SolidState, body: &dyn Formulation, dt: f64) {
+    /// Draws velocities to those the fluid has answered, at the end of a sub-step `dt` \[s\].
+    ///
+    /// In the plane of the face, too: the pressure of an uneven fluid pushes along the wall as well, and a thin wall has as little mass
+    /// for that.
+    pub(crate) fn resist(&self, state: &mut SolidState, dt: f64) {
         for part in &self.impedance {
             let i = part.at as usize;
-            let normal = (crate::material::cofactor(&body.deformation(i)) * part.normal).normalize_or_zero();
             let weight = dt * part.coefficient / state.mass[i];
-            let lag = normal.dot(part.start - state.velocity[i]);
-            state.velocity[i] += weight / (1.0 + weight) * lag * normal;
+            let lag = part.start - state.velocity[i];
+            state.velocity[i] += weight / (1.0 + weight) * lag;
         }
     }
 

@@ -247,7 +247,6 @@ impl<R: Real> Solid<R> {
         let at = self.places("impedance", &face.particles)?;
         self.loads.impedance.extend(at.into_iter().zip(&face.area).map(|(at, area)| Impedance {
             at,
-            normal: area.normalize_or_zero(),
             coefficient: share * impedance * area.length(),
             start: DVec3::ZERO,
         }));

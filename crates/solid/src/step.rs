@@ -96,7 +96,7 @@ impl<R: Real> Solid<R> {
             self.accelerate(step)?;
             // The end of one sub-step and the beginning of the next see the same accelerations.
             self.kick(if k < n { step } else { 0.5 * step });
-            self.loads.resist(&mut self.state, &*self.body, step);
+            self.loads.resist(&mut self.state, step);
         }
         self.note_end(dt);
         Ok(())

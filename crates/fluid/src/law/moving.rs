@@ -13,19 +13,23 @@ fn kernel_weight<L: Lanes>(u: L, volume: L) -> L {
 /// Number of sums of [`WallVelocity`].
 pub const VELOCITY_SUMS: usize = 5;
 
-/// Fluid among the wall: sums `[0]` of `V u^3 v_a . d`, what the motion of the wall adds to the divergence, `[1]` of `V W` and
+/// Fluid among the wall, whose normal is the own second record: sums `[0]` of `V u^3 (v_a . n) (d . n)`, what the motion of the wall adds
+/// to the divergence, `[1]` of `V W` and
 /// `[2..5]` of `V W v_a`, of which the wall near a particle has its velocity.
 pub struct WallVelocity;
 
 impl<R: Real> PairLaw<R, VELOCITY_SUMS> for WallVelocity {
     type Constants<L: Lanes<Elem = R>> = ();
+    const SECOND_OWN: bool = true;
 
     fn constants<L: Lanes<Elem = R>>(&self) {}
 
     #[inline(always)]
-    fn pair<L: Lanes<Elem = R>>((): &(), _own: &Own<L>, p: &Pair<L>, sums: &mut [L; VELOCITY_SUMS]) {
+    fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; VELOCITY_SUMS]) {
         let weight = kernel_weight(p.u, p.volume);
-        sums[0] = gradient_weight(p.u, p.volume).fma(dot(p.velocity, p.d), sums[0]);
+        let normal = [own.second[0], own.second[1], own.second[2]];
+        sums[0] =
+            (gradient_weight(p.u, p.volume) * dot(p.velocity, normal)).fma(dot(p.d, normal), sums[0]);
         sums[1] = sums[1] + weight;
         add_scaled(sums, 2, weight, p.velocity);
     }
