@@ -1,4 +1,4 @@
-"""Pictures by matplotlib, which the rest of the package does without: ``pip install 'vaso[plot]'``."""
+"""Pictures by matplotlib, which the rest of the package does without."""
 
 from __future__ import annotations
 
@@ -53,5 +53,5 @@ def _pyplot() -> Any:
     try:
         import matplotlib.pyplot
     except ImportError as error:
-        raise ImportError("pictures need matplotlib: pip install 'vaso[plot]'") from error
+        raise ImportError("pictures need matplotlib: pip install matplotlib") from error
     return matplotlib.pyplot
