@@ -3,7 +3,7 @@
     import vaso
     result = vaso.run("cases/carotid", particles__spacing="0.8 mm")
     result.summary["status"], result.openings["ica.flow_m3_s"]
-    speed = abs(result.particles()["Velocity"])
+    velocity = result.particles()["Velocity"]          # (n, 3) in m/s
 
 Names are those of the files, values in SI units. What the program refuses is raised with its message (:class:`VasoError`).
 """
