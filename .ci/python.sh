@@ -6,5 +6,5 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/.ci/venv.sh"
 
-venv_needs "vtk==9.7.2 numpy==2.4.6 jsonschema==4.26.0"
+venv_needs "$vtk jsonschema==4.26.0"
 "$venv/bin/python" -c "import vtk, numpy, jsonschema; print('vtk', vtk.VTK_VERSION, 'numpy', numpy.__version__)"

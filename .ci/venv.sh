@@ -1,11 +1,13 @@
 # Sourced: the Python environment that checks share, `.venv` of the project.
 #
 #     . "$root/.ci/venv.sh"
-#     venv_needs "vtk==9.7.2 numpy==2.4.6"      # afterwards $venv/bin/python has them
+#     venv_needs "$vtk jsonschema==4.26.0"      # afterwards $venv/bin/python has them
 #
 # Asks no registry once the pinned versions are there. Expects the root of the project in $root.
 
 venv="$root/.venv"
+# What several checks need, in one version.
+vtk="vtk==9.7.2 numpy==2.4.6"
 
 venv_needs() {
     [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
