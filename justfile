@@ -83,6 +83,15 @@ fuzz target="vtp" seconds="60":
     mkdir -p fuzz/target/corpus/{{target}}
     cargo fuzz run --sanitizer none {{target}} fuzz/target/corpus/{{target}} fuzz/corpus/{{target}} -- -max_len=8192 -timeout=5 -max_total_time={{seconds}}
 
+# The pages of docs as a book in target/book, with every link followed.
+book:
+    sh .ci/book.sh
+
+# The Python package: installed, its types checked, its tests and its example run with target/release/vaso.
+python-test:
+    cargo build --release
+    sh .ci/package.sh
+
 # Licences, advisories and sources of the dependencies; needs cargo-deny.
 deny:
     cargo deny check

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Documents point at what exists: links to files of the project, and the sources that ARCHITECTURE.md names.
+# Documents point at what exists: links to files of the project, the sources that ARCHITECTURE.md names, and the pages of the book.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -22,5 +22,13 @@ for name in $(grep -o '`[a-z0-9_]*\.rs`' ARCHITECTURE.md | tr -d '`' | sort -u);
     printf '%s\n' "$sources" | grep -q "/$name\$" || complain "ARCHITECTURE.md: there is no $name"
 done
 
-[ "$fail" -eq 0 ] && printf 'links and names of files are right\n'
+# The book has every page, and what it includes is there.
+for page in $(git ls-files 'docs/*.md' | sed 's/^docs\///' | grep -vx 'SUMMARY.md'); do
+    grep -qF "]($page)" docs/SUMMARY.md || complain "docs/SUMMARY.md: $page is missing"
+done
+for part in $(grep -oh '{{#include [^:}]*' docs/*.md | sed 's/.* //'); do
+    [ -e "docs/$part" ] || complain "docs: there is no $part to include"
+done
+
+[ "$fail" -eq 0 ] && printf 'links, names of files and pages of the book are right\n'
 exit "$fail"

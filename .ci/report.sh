@@ -1,12 +1,10 @@
 #!/bin/sh
 # Opens reports in a headless browser and does what a reader does: tests/python/check_report.py.
 # Usage: sh .ci/report.sh REPORT.html ...   Pictures of what was seen are left in target/report.
-# Running it again installs nothing once the pinned versions are there.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-venv="$root/.venv"
-pins="playwright==1.65.2 pillow==13.0.0"
+. "$root/.ci/venv.sh"
 
 # The browser comes from the system: a version of Playwright's own would have to be fetched from elsewhere.
 has_browser() {
@@ -22,23 +20,5 @@ if ! has_browser; then
     apt-get install -y -qq --no-install-recommends chromium fonts-dejavu-core >/dev/null
 fi
 
-if [ ! -x "$venv/bin/python" ]; then
-    python3 -m venv "$venv"
-fi
-if ! "$venv/bin/python" - $pins <<'PYTHON'
-import sys
-from importlib.metadata import PackageNotFoundError, version
-
-def present(pin):
-    name, wanted = pin.split("==")
-    try:
-        return version(name) == wanted
-    except PackageNotFoundError:
-        return False
-
-sys.exit(0 if all(map(present, sys.argv[1:])) else 1)
-PYTHON
-then
-    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check $pins
-fi
+venv_needs "playwright==1.65.2 pillow==13.0.0"
 "$venv/bin/python" "$root/tests/python/check_report.py" --shots "$root/target/report" "$@"
