@@ -84,9 +84,6 @@ fn run(across: f64, strain: f64, time: f64, end: f64) -> Squeezed {
     }
 }
 
-/// Spacings of a support over those of the radius at D/10.
-const REACH: f64 = 2.6 / 5.0;
-
 #[test]
 fn what_the_wall_sweeps_is_driven_out() {
     for (strain, time, end) in [(0.1, 0.1, 0.15), (-0.1, 0.1, 0.15), (0.3, 0.1, 0.15)] {
@@ -101,8 +98,8 @@ fn what_the_wall_sweeps_is_driven_out() {
             s.escaped,
             s.returned
         );
-        // The continuity of a concave wall is short by this share (docs/theory/coupling.md); the density blend takes most back.
-        assert!((s.driven / s.swept - 1.0).abs() < 0.104 * REACH, "{}", s.driven / s.swept);
+        // What is short at D/10 is that of a wall which bends along its axis (docs/theory/coupling.md).
+        assert!((s.driven / s.swept - 1.0).abs() < 0.05, "{}", s.driven / s.swept);
         // A particle more or less in each of the layers that the bounds of the middle cut through: 2 of 40 layers, half filled.
         assert!((s.middle - 1.0).abs() < 0.025, "{}", s.middle);
         // A layer a cap is what the count of crossings is good for.

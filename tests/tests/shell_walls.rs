@@ -164,7 +164,6 @@ fn a_tube_under_pressure_widens_as_lame_says() {
 
 /// As thin as a sixth of a spacing, where the wall is lighter than the blood within reach and the formula of a thin tube holds.
 #[test]
-#[ignore = "missed: 1.08 with a scatter of 0.22, thin shells in blood ring"]
 fn a_thin_tube_widens_as_a_membrane() {
     let thin = Inflated { young: 2e6, thickness: 0.15e-3, is_thick: false, ..TUBE };
     let [widening, scatter, pressure] = thin.run();
@@ -189,7 +188,9 @@ fn the_widening_at_other_spacings() {
             1e3 * other.thickness,
             other.share
         );
-        assert!((widening - 1.0).abs() < 0.03, "{widening}");
+        // A wall as thick as 0.4 of the radius is none of the theory of shells any more.
+        let bound = if other.thickness < 0.3 * LUMEN { 0.02 } else { 0.04 };
+        assert!((widening - 1.0).abs() < bound, "{widening}");
     }
 }
 
@@ -235,7 +236,6 @@ fn pulse(thickness: f64, density: f64) -> [f64; 2] {
 }
 
 #[test]
-#[ignore = "missed: the light one breaks down after 1.8 ms"]
 fn a_light_and_a_thick_shell_keep_the_energy_they_get() {
     for (thickness, density) in [(0.05e-3, 500.0), (4e-3, 1200.0)] {
         let [share, largest] = pulse(thickness, density);

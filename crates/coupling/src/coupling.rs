@@ -36,7 +36,7 @@ impl<W: MovingWall> Coupling<W> {
     /// Lets the wall of `fluid` move, as `wall` does; it has to be where it was when the distance of the fluid was measured.
     pub fn new<R: Real>(wall: W, fluid: &mut Fluid<R>) -> Self {
         let view = wall.view();
-        fluid.release_wall(&view);
+        fluid.release_wall(&view, wall.thinning());
         let n = view.position.len();
         let zero = || vec![DVec3::ZERO; n];
         Self {

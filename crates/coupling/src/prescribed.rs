@@ -14,6 +14,8 @@ pub struct Prescribed<F> {
     volume: Vec<f64>,
     motion: F,
     time: f64,
+    /// Strain across the wall per strain of its area that the motion has: 1 unless set, where it keeps the volume of the wall.
+    pub thinning: f64,
     /// Work that the fluid has done on the wall so far \[J\].
     pub work: f64,
     force: Vec<DVec3>,
@@ -35,6 +37,7 @@ impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> Prescribed<F> {
             volume,
             motion,
             time: 0.0,
+            thinning: 1.0,
             work: 0.0,
             force: vec![DVec3::ZERO; n],
         };
@@ -52,6 +55,11 @@ impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> Prescribed<F> {
 }
 
 impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> MovingWall for Prescribed<F> {
+    /// A motion that is given has to keep the volume of the wall.
+    fn thinning(&self) -> f64 {
+        self.thinning
+    }
+
     fn view(&self) -> WallView<'_> {
         WallView {
             position: &self.position,
@@ -88,6 +96,7 @@ impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> MovingWall for Prescribed<F> {
             time,
             work,
             force: _,
+            thinning: _,
         } = self;
         memory.fields("wall.time_s", &mut [time]);
         memory.fields("wall.work_j", &mut [work]);

@@ -92,6 +92,11 @@ fn foot<R: Real>(shell: &Shell<R>, i: usize, rate: f64) -> Foot {
 }
 
 impl<R: Real> MovingWall for ShellWall<R> {
+    fn thinning(&self) -> f64 {
+        // Ghosts move by half of what a wall of constant volume would thin.
+        0.5
+    }
+
     fn view(&self) -> WallView<'_> {
         self.columns.view()
     }

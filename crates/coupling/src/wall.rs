@@ -21,6 +21,10 @@ pub trait MovingWall {
     /// Particles as the fluid sees them, with their velocities at the end of the last step; always as many, in the same order.
     fn view(&self) -> WallView<'_>;
 
+    /// Strain across the wall per strain of its area, with the other sign, as the particles of the view show it: 1 where they keep their
+    /// volume.
+    fn thinning(&self) -> f64;
+
     /// Takes the forces of the fluid, which hold until the next ones.
     ///
     /// # Errors
@@ -47,6 +51,10 @@ pub trait MovingWall {
 pub(crate) const NAME: &str = "wall";
 
 impl<R: Real> MovingWall for Solid<R> {
+    fn thinning(&self) -> f64 {
+        self.material().thinning()
+    }
+
     fn view(&self) -> WallView<'_> {
         self.wall_view()
     }

@@ -26,7 +26,7 @@ pub struct PlannedShell {
     /// Pressure of the blood beyond that at which the wall is unloaded, as far as the equation of state does not carry it
     /// \[Pa\].
     pub carried_pressure: f64,
-    /// Share of the impedance of the blood that it takes implicitly, where it is too thin to do without.
+    /// Share of the impedance of the blood that it takes implicitly, where it is too light to do without.
     pub implicit_impedance: Option<f64>,
 }
 
@@ -35,8 +35,6 @@ const DAMPING: f64 = 0.05;
 const QUASI_STATIC_DAMPING: f64 = 0.5;
 /// Points through the thickness of a neo-Hookean shell.
 const POINTS: usize = 3;
-/// Thickness over the spacing of the blood below which a shell has been seen to ring (`docs/theory/coupling.md`).
-const RINGS: f64 = 0.4;
 /// Thickness over the radius of the narrowest opening above which stresses of a shell are doubtful.
 const THICK: f64 = 0.2;
 
@@ -64,7 +62,7 @@ impl PlannedShell {
             thickness: wall.thickness,
             pulse_speed: (material.plate() * wall.thickness / (2.0 * blood.density * radius)).sqrt(),
             carried_pressure: reference_pressure - wall.unloaded_pressure,
-            implicit_impedance: structure::implicit_impedance(wall, scene.particles.spacing),
+            implicit_impedance: structure::implicit_impedance(wall, blood.density * scene.particles.spacing),
         }))
     }
 
@@ -78,20 +76,15 @@ impl PlannedShell {
                  wrong by about half of that: take `wall.model` = \"solid\""
             ));
         }
-        let in_spacings = self.thickness / case.scene.particles.spacing;
-        if in_spacings < RINGS {
-            warnings.push(format!(
-                "the wall is {in_spacings:.2} spacings of the blood thick; below {RINGS} a shell rings, and a light one breaks down: make \
-                 `particles.spacing` smaller"
-            ));
-        }
         warnings
     }
 
     /// Why the effect is on.
     pub(crate) fn reason(&self) -> String {
-        let thin = match self.implicit_impedance {
-            Some(share) => format!("; it takes {share} of the impedance of the blood implicitly, being thin"),
+        let light = match self.implicit_impedance {
+            Some(share) => {
+                format!("; it takes {share} of the impedance of the blood implicitly, being light")
+            }
             None => String::new(),
         };
         let law = match self.material.model() {
@@ -99,7 +92,7 @@ impl PlannedShell {
             Model::NeoHookean { points } => format!("neo-Hookean at {points} points through the thickness"),
         };
         format!(
-            "`wall.model` is \"shell\": one layer of {:.3} mm, {:.2} spacings thick; {law}{thin}",
+            "`wall.model` is \"shell\": one layer of {:.3} mm, {:.2} spacings thick; {law}{light}",
             1e3 * self.numbers.spacing,
             self.thickness / self.numbers.spacing
         )

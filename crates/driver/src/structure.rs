@@ -30,15 +30,16 @@ pub struct PlannedWall {
     /// Pressure of the blood beyond that at which the wall is unloaded, as far as the equation of state does not carry it
     /// \[Pa\].
     pub carried_pressure: f64,
-    /// Share of the impedance of the blood that the inner face takes implicitly, where it is too thin to do without.
+    /// Share of the impedance of the blood that the inner face takes implicitly, where it is too light to do without.
     pub implicit_impedance: Option<f64>,
 }
 
 /// Damping between pairs of a wall in motion, and of one that has to come to rest.
 const DAMPING: f64 = 0.05;
 const QUASI_STATIC_DAMPING: f64 = 0.5;
-/// Thickness over the spacing of the blood below which the face answers the blood implicitly, and the share of it.
-const THIN: f64 = 0.6;
+/// Mass of the wall over that of a layer of the blood, by area, below which the face answers the blood implicitly, and the share of it. A solid wall as
+/// thick as a spacing and half as dense as the blood was driven apart.
+const LIGHT: f64 = 0.8;
 const IMPLICIT_SHARE: f64 = 0.5;
 /// Layers that a wall needs to bend.
 const LAYERS_TO_BEND: f64 = 8.0;
@@ -71,7 +72,7 @@ impl PlannedWall {
             thickness: wall.thickness,
             pulse_speed: (stiffness / (2.0 * blood.density * radius)).sqrt(),
             carried_pressure: reference_pressure - wall.unloaded_pressure,
-            implicit_impedance: implicit_impedance(wall, scene.particles.spacing),
+            implicit_impedance: implicit_impedance(wall, blood.density * scene.particles.spacing),
         }))
     }
 
@@ -101,12 +102,14 @@ impl PlannedWall {
             l if l < LAYERS_TO_BEND * (1.0 - 1e-9) => "enough to inflate it; bending wants eight",
             _ => "enough to inflate and to bend it",
         };
-        let thin = match self.implicit_impedance {
-            Some(share) => format!("; it takes {share} of the impedance of the blood implicitly, being thin"),
+        let light = match self.implicit_impedance {
+            Some(share) => {
+                format!("; it takes {share} of the impedance of the blood implicitly, being light")
+            }
             None => String::new(),
         };
         format!(
-            "`wall.model` is \"solid\": {layers:.1} layers of {:.3} mm, {good_for}{thin}",
+            "`wall.model` is \"solid\": {layers:.1} layers of {:.3} mm, {good_for}{light}",
             1e3 * self.numbers.spacing
         )
     }
@@ -201,9 +204,10 @@ pub(crate) fn ring(
     (0..position.len() as u32).filter(is_held).collect()
 }
 
-/// Share of the impedance that a wall takes implicitly in blood of a `spacing` \[m\], where it is thin.
-pub(crate) fn implicit_impedance(wall: &ElasticWall, spacing: f64) -> Option<f64> {
-    (wall.thickness < THIN * spacing).then_some(IMPLICIT_SHARE)
+/// Share of the impedance that a wall takes implicitly in blood of which a layer, one spacing thick, has a `mass` \[kg/m^2\], where the wall is light
+/// beside it.
+pub(crate) fn implicit_impedance(wall: &ElasticWall, mass: f64) -> Option<f64> {
+    (wall.density * wall.thickness < LIGHT * mass).then_some(IMPLICIT_SHARE)
 }
 
 #[derive(Clone, Copy, PartialEq)]

@@ -17,6 +17,8 @@ pub(crate) struct Moving<R> {
     pub(crate) source: Vec<u32>,
     /// Where the particles of the view were when the distance to the wall was measured \[m\].
     origin: Vec<DVec3>,
+    /// What the motion of each particle of the view counts for at the lumen surface, see [`Fluid::release_wall`].
+    pub(crate) lever: Vec<f64>,
     /// Acceleration of each wall particle within reach \[m/s^2\].
     acceleration: Vec<DVec3>,
     /// Displacement and depth \[supports\] of the wall within reach.
@@ -34,6 +36,9 @@ pub(crate) struct Moving<R> {
     /// Fluid as the wall sees it: its scalar is what the wall gets from it.
     pub(crate) seen: Records<R>,
 }
+
+/// Bounds of the factors of [`Fluid::release_wall`]: at creases the divergence of the normals is none of a surface.
+const LEVERS: (f64, f64) = (0.7, 1.3);
 
 /// How a wall enters the acoustic step, at rest or in motion.
 pub(crate) trait Wall: Sync {
@@ -98,9 +103,14 @@ impl<R: Real> Fluid<R> {
     /// Lets the wall move from now on. `view` is the wall as it was when the distance to it was measured, in the order of all
     /// views to come.
     ///
+    /// `thinning` is the strain across the wall per strain of its area. Behind a curved surface particles at the depth `s` move by
+    /// `1 - thinning s (k1 + k2)` of what the surface does. Where they keep their volume, at a thinning of 1, sums over the kernel fall short of
+    /// what is swept by as much as they exceed it where all move alike, at 0 (`docs/theory/coupling.md`); a half is right. So a velocity counts by
+    /// `1 + (thinning - 1/2) s (k1 + k2)`, and the force on a particle by the same factor: the work stays that of the pressure.
+    ///
     /// # Panics
     /// If the lists of the view differ in length.
-    pub fn release_wall(&mut self, view: &WallView) {
+    pub fn release_wall(&mut self, view: &WallView, thinning: f64) {
         let n = view.position.len();
         assert!(
             view.velocity.len() == n && view.depth.len() == n && view.volume.len() == n,
@@ -109,6 +119,7 @@ impl<R: Real> Fluid<R> {
         self.moving = Some(Box::new(Moving {
             source: Vec::new(),
             origin: view.position.to_vec(),
+            lever: if thinning == 0.5 { vec![1.0; n] } else { self.levers(view, thinning) },
             acceleration: Vec::new(),
             displaced: Records::default(),
             displacement: Vec::new(),
@@ -119,6 +130,22 @@ impl<R: Real> Fluid<R> {
             seen: Records::default(),
         }));
         self.take_wall(view, &[]);
+    }
+
+    /// Factors for the particles of a wall, by the divergence of the normals at the lumen surface in front of each.
+    fn levers(&self, view: &WallView, thinning: f64) -> Vec<f64> {
+        let step = self.numbers.spacing;
+        let lever = |(x, depth): (&DVec3, &f64)| {
+            let (_, normal) = self.distance(*x);
+            let foot = *x - *depth * normal;
+            let bend = |axis: DVec3| {
+                let [ahead, behind] = [1.0, -1.0].map(|side| self.distance(foot + side * step * axis).1);
+                (ahead - behind).dot(axis) / (2.0 * step)
+            };
+            let curvature: f64 = DVec3::AXES.into_iter().map(bend).sum();
+            (1.0 + (thinning - 0.5) * depth * curvature).clamp(LEVERS.0, LEVERS.1)
+        };
+        view.position.par_iter().zip(view.depth).with_min_len(1024).map(lever).collect()
     }
 
     /// Takes the wall anew before [`Self::search`]: positions, velocities and, in the same order, accelerations \[m/s^2\]. The
@@ -151,10 +178,10 @@ impl<R: Real> Fluid<R> {
     pub fn set_wall_velocity(&mut self, velocity: &[DVec3], acceleration: &[DVec3], dt: f64) {
         let Some(moving) = &mut self.moving else { return };
         moving.accelerate(acceleration);
-        let source = &moving.source;
+        let (source, lever) = (&moving.source, &moving.lever);
         self.wall.dynamic.as_mut_slice().par_iter_mut().zip(source).with_min_len(1024).for_each(
             |(record, &a)| {
-                let v = velocity[a as usize];
+                let v = lever[a as usize] * velocity[a as usize];
                 (record[4], record[5], record[6]) = (R::pack(v.x), R::pack(v.y), R::pack(v.z));
             },
         );
@@ -278,7 +305,7 @@ impl<R: Real> Fluid<R> {
             + m.velocity.capacity()
             + m.bend.capacity();
         size_of::<DVec3>() * vectors
-            + 8 * m.flux.capacity()
+            + 8 * (m.flux.capacity() + m.lever.capacity())
             + 4 * m.source.capacity()
             + m.displaced.bytes()
             + m.correction.bytes()

@@ -43,7 +43,7 @@ impl<R: Real> Fluid<R> {
         force.fill(DVec3::ZERO);
         let records = self.wall.dynamic.as_slice();
         for ((&a, record), sum) in moving.source.iter().zip(records).zip(&sums) {
-            force[a as usize] = gradient * record[3].widen() * *sum;
+            force[a as usize] = moving.lever[a as usize] * gradient * record[3].widen() * *sum;
         }
         self.moving = Some(moving);
     }

@@ -28,8 +28,7 @@ impl<R: Real> PairLaw<R, VELOCITY_SUMS> for WallVelocity {
     fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; VELOCITY_SUMS]) {
         let weight = kernel_weight(p.u, p.volume);
         let normal = [own.second[0], own.second[1], own.second[2]];
-        sums[0] =
-            (gradient_weight(p.u, p.volume) * dot(p.velocity, normal)).fma(dot(p.d, normal), sums[0]);
+        sums[0] = (gradient_weight(p.u, p.volume) * dot(p.velocity, normal)).fma(dot(p.d, normal), sums[0]);
         sums[1] = sums[1] + weight;
         add_scaled(sums, 2, weight, p.velocity);
     }

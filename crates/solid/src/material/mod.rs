@@ -70,6 +70,18 @@ impl Material {
         };
         (modulus / density).sqrt()
     }
+
+    /// Strain across a wall per strain of its area, with the other sign, where no stress acts across it: `nu / (1 - nu)` at small
+    /// strain, fibres left out.
+    pub fn thinning(&self) -> f64 {
+        let (bulk, shear) = match self {
+            Self::SaintVenantKirchhoff(m) => (m.bulk_modulus(), m.shear_modulus()),
+            Self::NeoHookean(m) => (m.bulk_modulus(), m.shear_modulus()),
+            Self::HolzapfelGasserOgden(m) => (m.bulk_modulus(), m.shear_modulus()),
+            Self::HypoElastic(m) => (m.bulk, m.shear),
+        };
+        (bulk - 2.0 / 3.0 * shear) / (bulk + 4.0 / 3.0 * shear)
+    }
 }
 
 /// Transposed inverse times the determinant.
