@@ -154,9 +154,6 @@ impl Plan {
         warnings.extend(vaso_generation::warnings(&case.vessel, &settings).iter().map(|w| told(case, w)));
         warnings.extend(wall.iter().flat_map(PlannedWall::warnings));
         warnings.extend(shell.iter().flat_map(|shell| shell.warnings(case)));
-        if let (Some(_), false) = (scene.numerics.reference_pressure, wall.is_some() || shell.is_some()) {
-            warnings.extend(far_reference(flow.pressure_range, density, flow.top_speed));
-        }
         if across < 12.0 {
             warnings.push(format!(
                 "{across:.1} particles lie across the narrowest opening; flow patterns want 12, wall shear stress 20"
@@ -205,22 +202,6 @@ impl Plan {
         })
     }
 }
-
-/// What to say of a reference pressure that is given and lies far from the pressures of a rigid vessel: `range` \[Pa\] against
-/// the dynamic pressure at `speed` \[m/s\].
-fn far_reference(range: f64, density: f64, speed: f64) -> Option<String> {
-    let ratio = range / (density * speed * speed);
-    (ratio > FAR_REFERENCE).then(|| {
-        format!(
-            "`numerics.reference_pressure` makes the equation of state carry {range:.0} Pa, {ratio:.0} times the dynamic pressure: \
-             flows break down so; leave it \"auto\", which keeps the common level out of it"
-        )
-    })
-}
-
-/// Pressure over `rho u^2` that is told where the reference is given: a pipe at 1000 broke down within 12 ms (decision 11). Where between
-/// one and that a flow begins to break is not known.
-const FAR_REFERENCE: f64 = 50.0;
 
 /// A warning of the generator, with the opening by its name.
 fn told(case: &Case, warning: &vaso_generation::Warning) -> String {

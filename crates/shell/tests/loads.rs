@@ -130,9 +130,9 @@ fn tissue_holds_a_free_plate() {
     assert!(energies.balance().abs() < 1e-2 * energies.dissipated, "{energies:?}");
 }
 
-/// An impedance adds mass along the normal and nothing across it.
+/// An impedance adds mass along the normal, and across it as much.
 #[test]
-fn an_impedance_slows_the_answer_along_the_normal() {
+fn an_impedance_slows_the_answer() {
     let body = square();
     let answer = |impedance: f64, force: DVec3| {
         let mut shell = shell::<f64>(&body, Isa::detect());
@@ -143,10 +143,10 @@ fn an_impedance_slows_the_answer_along_the_normal() {
     };
     let mass = 1000.0 * THICKNESS;
     let impedance = 4.0 * mass / 1e-6;
-    let ratio = answer(impedance, 1e-6 * DVec3::Z) / answer(0.0, 1e-6 * DVec3::Z);
-    assert!((ratio - 1.0 / 3.0).abs() < 1e-9, "{ratio}");
-    let ratio = answer(impedance, 1e-6 * DVec3::X) / answer(0.0, 1e-6 * DVec3::X);
-    assert!((ratio - 1.0).abs() < 1e-6, "{ratio}");
+    for axis in [DVec3::Z, DVec3::X] {
+        let ratio = answer(impedance, 1e-6 * axis) / answer(0.0, 1e-6 * axis);
+        assert!((ratio - 1.0 / 3.0).abs() < 1e-6, "{axis}: {ratio}");
+    }
 }
 
 /// A plate cut at its plane of symmetry bends as the whole one.

@@ -171,17 +171,12 @@ pub(super) fn sudden_stop() -> Option<Outcome> {
     .unwrap_or_else(|e| panic!("{e}"));
     shown.invariants("", 0.02, &mut outcome);
     let opened = largest_void - before.unwrap_or(0.0);
-    outcome.figure(
-        "places that lose their blood by the stop",
-        opened,
-        Unit::Part,
-        Tolerance::Missed { asked: 0.005, held: 0.03 },
-    );
+    outcome.figure("places that lose their blood by the stop", opened, Unit::Part, Tolerance::Asked(0.005));
     outcome.figure(
         "smallest distance between particles at the end, in spacings",
         shown.least_distance,
         Unit::Number,
-        Tolerance::TooLow { asked: 0.5, held: 0.3 },
+        Tolerance::TooLow { asked: 0.5, held: 0.4 },
     );
     Some(outcome)
 }

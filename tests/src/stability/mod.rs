@@ -66,7 +66,7 @@ pub const CASES: &[Hard] = &[
         breaks: "Explicit coupling pumps energy into a light soft wall (added mass).",
         held: Held::Elsewhere(
             "`tests/tests/shell_walls.rs` and `moving_wall.rs`: the energy of the wall is bounded by the work put in, density ratios 0.5 \
-             to 1.2 for solids; shells thinner than 0.15 spacings ring or break, see docs/theory/shells.md",
+             to 1.2, solids of a spacing and shells from a twentieth of one to four",
         ),
     },
     Hard {
@@ -75,7 +75,7 @@ pub const CASES: &[Hard] = &[
         breaks: "Negative pressure tears voids and clumps particles.",
         held: Held::Here(
             "Pipe of 6.35 mm, D/10: 0.2 m/s stopped within 2 ms before an outlet at -2 kPa. The level of -2 kPa does nothing; the stop \
-             pulls at the blood by rho c u, which opens small voids: particles below the reference pressure clump.",
+             pulls at the blood by rho c u.",
             flows::sudden_stop,
         ),
     },
@@ -151,8 +151,7 @@ pub const CASES: &[Hard] = &[
         breaks: "A sound wave that goes to and fro for ever, or a jet from one outlet to the other.",
         held: Held::Here(
             "The carotid of the demo at 0.9 mm between Windkessels that start at 80 and at 78 mmHg. The common level is out of the \
-             equation of state. Where `numerics.reference_pressure` is given and the pressure lies far from it, a flow breaks down: the \
-             planner warns of it.",
+             equation of state; one that stays in it leaves no trace (`tests/tests/openings.rs`).",
             flows::wrong_start,
         ),
     },

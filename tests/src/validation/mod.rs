@@ -52,12 +52,21 @@ pub struct Outcome {
     pub seconds: f64,
     /// Threads they had.
     pub threads: usize,
+    /// What has changed since, where it was run before the scheme was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_before: Option<String>,
 }
 
 impl Outcome {
     /// An outcome without flows so far.
     pub fn new() -> Self {
-        Self { figures: Vec::new(), particles: 0, seconds: 0.0, threads: rayon::current_num_threads() }
+        Self {
+            figures: Vec::new(),
+            particles: 0,
+            seconds: 0.0,
+            threads: rayon::current_num_threads(),
+            run_before: None,
+        }
     }
 
     /// Adds a figure.
