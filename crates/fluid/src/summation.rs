@@ -72,10 +72,7 @@ impl<R: Real> Fluid<R> {
                     frozen.wall_gradient = -gradient * DVec3::new(w[1], w[2], w[3]);
                     frozen.wall_area = gradient * w[10];
                     frozen.fluid_moment = Sym3(std::array::from_fn(|q| gradient * support * f[4 + q]));
-                    // Near a cap the fluid ends along the wall, too, and the moments would tell of that.
-                    if zone_of[k] == 0 {
-                        frozen.along_wall = along_wall(&moment, &frozen.fluid_moment, frozen.wall_normal);
-                    }
+                    frozen.along_wall = along_wall(&moment, &frozen.fluid_moment, frozen.wall_normal);
                     second[k] = pack_sym(&frozen.correction.0);
                 }
             });
