@@ -54,7 +54,7 @@ fn run(across: f64) -> Option<Outcome> {
     let base = means(&first, None);
     outcome.cost(&base.flown);
     let top = base.early.iter().map(|p| p.1.length()).fold(0.0, f64::max);
-    let held = if across >= 16.0 { 0.003 } else { 0.008 };
+    let held = if across >= 16.0 { 0.003 } else { 0.01 };
     let means_within = Tolerance::Missed { asked: 1e-3, held };
     for (name, pipe) in [("turned", turned), ("moved by a metre", moved), ("in cm", unit)] {
         let other = means(&pipe, Some(base.planned));
