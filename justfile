@@ -99,3 +99,8 @@ deny:
 # All that is checked for every change, as it is checked there.
 ci:
     bash .ci/run
+
+# Tests that are ignored for their length and belong to no other recipe: resuming every effect after kills, and generators turned and moved; minutes.
+test-long:
+    cargo test --release -p vaso-driver --test resume -- --ignored --nocapture
+    cargo test --release -p vaso-generation --test invariance -- --ignored
