@@ -121,8 +121,9 @@ impl Openings {
             });
     }
 
-    /// Finds the particles near caps, after the fluid has been sorted; an advective step begins.
-    pub fn locate(&mut self, state: &FluidState) {
+    /// Finds the particles near caps, after the fluid has been sorted; an advective step begins. `part` is that of a full one which
+    /// the last one was.
+    pub fn locate(&mut self, state: &FluidState, part: f64) {
         self.find_sections(state);
         let length = self.buffer_length();
         // Particles in the fringe still carry the label of the buffer, and its flow.
@@ -156,13 +157,13 @@ impl Openings {
                 })
             },
         ));
-        self.shape_flow(state);
+        self.shape_flow(state, part);
         self.ports.iter_mut().for_each(|port| port.passed = Passed::default());
     }
 
     /// Takes the profiles at the particles, and scales them: the flow that is injected is that of the labelled particles,
-    /// `sum u V / L_b`.
-    fn shape_flow(&mut self, state: &FluidState) {
+    /// `sum u V / L_b`, over the time in which they pass.
+    fn shape_flow(&mut self, state: &FluidState, part: f64) {
         let (ports, zones) = (&self.ports, &self.zones);
         let place = |zone: &CapZone| {
             let port = &ports[zone.opening as usize];
@@ -195,7 +196,7 @@ impl Openings {
         }
         for (port, (steady, waves)) in self.ports.iter_mut().zip(&carried) {
             if let Some(inlet) = &mut port.inlet {
-                inlet.scale(*steady, waves, port.opening.area * length);
+                inlet.scale(*steady, waves, port.opening.area * length, part);
             }
         }
     }

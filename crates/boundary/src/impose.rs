@@ -10,15 +10,12 @@ use vaso_fluid::{Fluid, FluidState, Real};
 /// Length of the section inside a velocity buffer over which the pressure is averaged, in spacings.
 const SECTION: f64 = 4.0;
 
-/// Share of the difference from the density of the boundary that a particle at the cap loses in an advective step.
-const TIE: f64 = 0.2;
-
 impl Openings {
     /// Imposes the conditions on the buffers after the kick of an acoustic step of `dt` \[s\] that
     /// ends at `t` \[s\], and lets the outlet models follow. Returns the top speed in the buffers \[m/s\].
     ///
-    /// A pressure enters through the missing kernel support; along the cap the velocity is removed,
-    /// since nothing outside could drive it.
+    /// A pressure enters through the missing kernel support; along the cap the velocity is removed, since nothing outside could
+    /// drive it.
     pub fn apply<R: Real>(&mut self, fluid: &mut Fluid<R>, t: f64, dt: f64) -> f64 {
         let reference = self.reference_pressure(t);
         let (rest_density, length) = (self.numbers.rest_density, self.buffer_length());
@@ -94,27 +91,6 @@ impl Openings {
             }
         }
         top
-    }
-
-    /// Brings the density of the particles within a spacing of a pressure opening nearer to the one that belongs to its pressure, at
-    /// `t` \[s\] before an advective step; needs [`Self::locate`] before it.
-    ///
-    /// Their continuity looks along the cap only, see `CapZone`: nothing else ties their pressure to that of the boundary, and what it is
-    /// off by would drive them for as long as they stay. `part` is that of a full advective step which the last one was.
-    pub fn tie(&self, state: &mut FluidState, t: f64, part: f64) {
-        let reference = self.reference_pressure(t);
-        let compliance = self.numbers.sound_speed.powi(-2);
-        let imposed: Vec<Option<f64>> = (0..self.ports.len())
-            .map(|k| Some(compliance * (self.pressure_value(k, t)? - reference)))
-            .collect();
-        for zone in &self.zones {
-            let (Some(density_change), true) = (imposed[zone.opening as usize], zone.in_buffer) else {
-                continue;
-            };
-            let share = part * TIE * (1.0 - zone.depth / self.spacing).clamp(0.0, 1.0);
-            let own = &mut state.density_change[zone.particle as usize];
-            *own += share * (density_change - *own);
-        }
     }
 
     /// Mean state of the openings at `t` \[s\]; needs [`Self::locate`] before it.

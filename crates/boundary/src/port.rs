@@ -105,14 +105,16 @@ pub struct Port {
 impl Port {
     /// Shows what it carries from step to step, under `name`.
     pub(crate) fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
-        // What passed is that of one step, and the factors of the inlet are found anew in each.
-        let Self { opening: _, condition: _, counters, backflow_damping: _, passed: _, outlet, inlet: _ } =
-            self;
+        // What passed is that of one step.
+        let Self { opening: _, condition: _, counters, backflow_damping: _, passed: _, outlet, inlet } = self;
         let Counters { injected, deleted, strays, outflow_volume, damped_energy } = counters;
         memory.counts(&format!("{name}.particles"), &mut [injected, deleted, strays]);
         memory.fields(&format!("{name}.sums"), &mut [outflow_volume, damped_energy]);
         if let Some(outlet) = outlet {
             outlet.remember(&format!("{name}.outlet"), memory);
+        }
+        if let Some(inlet) = inlet {
+            inlet.remember(&format!("{name}.inlet"), memory);
         }
     }
 

@@ -162,6 +162,16 @@ impl GhostColumns {
         );
     }
 
+    /// Column of each ghost.
+    pub fn column(&self) -> &[u32] {
+        &self.column
+    }
+
+    /// Feet of the columns, where they stand now.
+    pub fn feet(&self) -> &[Foot] {
+        &self.feet
+    }
+
     /// Number of columns.
     pub fn len(&self) -> usize {
         self.feet.len()

@@ -1,8 +1,8 @@
 //! A wall with what lies between it and the fluid, and the stages of a flow that belong to both.
 
-use crate::wall::{CouplingError, MovingWall};
+use crate::wall::{CouplingError, Facet, MovingWall, NO_FACET};
 use glam::DVec3;
-use vaso_fluid::{Fluid, Real};
+use vaso_fluid::{Contact, Fluid, Real};
 use vaso_particles::{Memory, WallLoad, WallView};
 
 /// A wall that moves, with the forces of the fluid on it.
@@ -19,8 +19,17 @@ pub struct Coupling<W> {
     pub steps: u64,
     /// Work that the fluid has done on it \[J\].
     pub work: f64,
+    contact: Vec<Contact>,
+    /// Particles of the view by facet, and where those of each facet begin, one more than there are facets.
+    behind: Vec<u32>,
+    start: Vec<u32>,
+    /// Particles of the view without a facet.
+    bare: Vec<u32>,
     pressure_force: Vec<DVec3>,
     viscous_force: Vec<DVec3>,
+    face_pressure: Vec<f64>,
+    /// Facets before an acoustic step.
+    facets: Vec<Facet>,
     /// Acceleration \[m/s^2\], without what rings.
     acceleration: Vec<DVec3>,
     /// Velocity before an acoustic step \[m/s\].
@@ -32,6 +41,10 @@ pub struct Coupling<W> {
 /// an advective step is not.
 const FILTER: f64 = 3.0;
 
+/// Share of a facet that has to be wetted for all of it to bear the pressure, by the kernel sum of what is behind it: less is found where a
+/// wall goes on beyond the end of the fluid, or stands in a crease.
+const WETTED: f64 = 0.5;
+
 impl<W: MovingWall> Coupling<W> {
     /// Lets the wall of `fluid` move, as `wall` does; it has to be where it was when the distance of the fluid was measured.
     pub fn new<R: Real>(wall: W, fluid: &mut Fluid<R>) -> Self {
@@ -39,7 +52,14 @@ impl<W: MovingWall> Coupling<W> {
         fluid.release_wall(&view, wall.thinning());
         let n = view.position.len();
         let zero = || vec![DVec3::ZERO; n];
+        let (start, behind, bare) = by_facet(&wall.facet_of());
         Self {
+            contact: vec![Contact::default(); n],
+            face_pressure: vec![0.0; start.len() - 1],
+            facets: Vec::new(),
+            start,
+            behind,
+            bare,
             pressure_force: zero(),
             viscous_force: zero(),
             acceleration: zero(),
@@ -63,7 +83,24 @@ impl<W: MovingWall> Coupling<W> {
 
     /// Takes the pressure of the kick.
     pub fn take_pressure<R: Real>(&mut self, fluid: &mut Fluid<R>) {
-        fluid.pressure_on_wall(&mut self.pressure_force);
+        fluid.pressure_on_wall(&mut self.contact);
+        let Self { contact, start, behind, bare, pressure_force, face_pressure, wall, .. } = self;
+        pressure_force.iter_mut().zip(&*contact).for_each(|(force, contact)| *force = contact.force);
+        for &a in &*bare {
+            pressure_force[a as usize] += 2.0 * contact[a as usize].level;
+        }
+        // One by one: a wall is not shared between threads.
+        for (number, pressure) in face_pressure.iter_mut().enumerate() {
+            let whole = wall.facet(number).area;
+            let (mut area, mut level) = (0.0, 0.0);
+            for &a in &behind[start[number] as usize..start[number + 1] as usize] {
+                let contact = &contact[a as usize];
+                area += contact.area.dot(whole);
+                level += contact.level.dot(whole);
+            }
+            let bound = WETTED * 0.5 * whole.length_squared();
+            *pressure = if area > 0.0 { level / area.max(bound) } else { 0.0 };
+        }
     }
 
     /// Moves the wall by an acoustic step `dt` \[s\] under what has been taken.
@@ -71,8 +108,11 @@ impl<W: MovingWall> Coupling<W> {
     /// # Errors
     /// When the wall breaks down.
     pub fn advance(&mut self, dt: f64) -> Result<(), CouplingError> {
-        let load = WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force };
+        let (pressure_force, viscous_force) = (&self.pressure_force, &self.viscous_force);
+        let load = WallLoad { pressure_force, viscous_force, face_pressure: &self.face_pressure };
         self.wall.load(&load)?;
+        let facets = |wall: &W, n: usize| (0..n).map(|number| wall.facet(number)).collect();
+        self.facets = facets(&self.wall, self.face_pressure.len());
         self.before.clear();
         self.before.extend_from_slice(self.wall.view().velocity);
         self.substeps += self.wall.advance(dt)? as u64;
@@ -85,7 +125,12 @@ impl<W: MovingWall> Coupling<W> {
         for (a, (old, new)) in self.acceleration.iter_mut().zip(velocities) {
             *a += share * ((*new - *old) / dt - *a);
         }
-        self.work += 0.5 * dt * velocity.zip(forces).map(|(v, force)| v.dot(force)).sum::<f64>();
+        let mut power = velocity.zip(forces).map(|(v, force)| v.dot(force)).sum::<f64>();
+        for (number, (pressure, old)) in self.face_pressure.iter().zip(&self.facets).enumerate() {
+            let new = self.wall.facet(number);
+            power += pressure * 0.5 * (old.area + new.area).dot(old.velocity + new.velocity);
+        }
+        self.work += 0.5 * dt * power;
         Ok(())
     }
 
@@ -103,8 +148,14 @@ impl<W: MovingWall> Coupling<W> {
             substeps,
             steps,
             work,
+            contact: _,
+            behind: _,
+            start: _,
+            bare: _,
             pressure_force: _,
             viscous_force: _,
+            face_pressure: _,
+            facets: _,
             acceleration,
             before: _,
         } = self;
@@ -116,7 +167,11 @@ impl<W: MovingWall> Coupling<W> {
 
     /// Forces of the fluid on the particles of the wall \[N\] in the last step: by pressure, and by viscosity.
     pub fn load(&self) -> WallLoad<'_> {
-        WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force }
+        WallLoad {
+            pressure_force: &self.pressure_force,
+            viscous_force: &self.viscous_force,
+            face_pressure: &self.face_pressure,
+        }
     }
 
     /// Particles of the wall.
@@ -130,6 +185,20 @@ impl<W: MovingWall> Coupling<W> {
             + self.viscous_force.capacity()
             + self.acceleration.capacity()
             + self.before.capacity();
-        size_of::<DVec3>() * vectors
+        let facets = size_of::<Facet>() * self.facets.capacity() + 8 * self.face_pressure.capacity();
+        let lists = self.behind.capacity() + self.start.capacity() + self.bare.capacity();
+        size_of::<DVec3>() * vectors + size_of::<Contact>() * self.contact.capacity() + facets + 4 * lists
     }
+}
+
+/// Particles by facet: where those of each facet begin, the particles in this order, and those without a facet.
+fn by_facet(facet_of: &[u32]) -> (Vec<u32>, Vec<u32>, Vec<u32>) {
+    let n = facet_of.iter().filter(|&&f| f != NO_FACET).max().map_or(0, |&f| f as usize + 1);
+    let mut behind: Vec<u32> = (0..facet_of.len() as u32).collect();
+    behind.sort_by_key(|&a| facet_of[a as usize]);
+    let start = (0..=n)
+        .map(|f| behind.partition_point(|&a| (facet_of[a as usize] as usize) < f) as u32)
+        .collect::<Vec<_>>();
+    let bare = behind.split_off(start[n] as usize);
+    (start, behind, bare)
 }

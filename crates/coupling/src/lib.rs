@@ -11,4 +11,4 @@ pub use columns::{Foot, GhostColumns};
 pub use coupling::Coupling;
 pub use prescribed::Prescribed;
 pub use shell_wall::ShellWall;
-pub use wall::{CouplingError, MovingWall};
+pub use wall::{CouplingError, Facet, MovingWall, NO_FACET};

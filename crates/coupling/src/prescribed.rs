@@ -1,6 +1,6 @@
 //! A wall whose motion is given, whatever the fluid does.
 
-use crate::wall::{CouplingError, MovingWall};
+use crate::wall::{CouplingError, Facet, MovingWall, NO_FACET};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_particles::{Memory, WallLoad, WallView};
@@ -67,6 +67,15 @@ impl<F: Fn(DVec3, f64) -> (DVec3, DVec3) + Sync> MovingWall for Prescribed<F> {
             depth: &self.depth,
             volume: &self.volume,
         }
+    }
+
+    /// None: it goes where it is told whatever the pressure.
+    fn facet_of(&self) -> Vec<u32> {
+        vec![NO_FACET; self.origin.len()]
+    }
+
+    fn facet(&self, _: usize) -> Facet {
+        Facet::default()
     }
 
     fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {

@@ -1,7 +1,7 @@
 //! A shell as a wall of the fluid: its ghost columns follow positions and directors, and their forces go to its particles.
 
 use crate::columns::{Foot, GhostColumns};
-use crate::wall::{CouplingError, MovingWall, NAME};
+use crate::wall::{CouplingError, Facet, MovingWall, NAME};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_particles::{Memory, WallLoad, WallView};
@@ -101,8 +101,22 @@ impl<R: Real> MovingWall for ShellWall<R> {
         self.columns.view()
     }
 
+    fn facet_of(&self) -> Vec<u32> {
+        self.columns.column().to_vec()
+    }
+
+    fn facet(&self, number: usize) -> Facet {
+        let foot = &self.columns.feet()[number];
+        Facet { area: foot.area * foot.normal, velocity: foot.velocity }
+    }
+
     fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {
         self.columns.gather(load, &mut self.pressure_force, &mut self.viscous_force, &mut self.spread);
+        for ((force, pressure), foot) in
+            self.pressure_force.iter_mut().zip(load.face_pressure).zip(self.columns.feet())
+        {
+            *force += *pressure * foot.area * foot.normal;
+        }
         let (state, thinning) = (&self.shell.state, thinning(&self.shell));
         let forces = self.pressure_force.par_iter().zip(&self.viscous_force);
         self.spread.par_iter_mut().zip(forces).enumerate().with_min_len(1024).for_each(
@@ -110,7 +124,8 @@ impl<R: Real> MovingWall for ShellWall<R> {
                 *spread += 0.5 * state.thickness[i] * thinning * state.director[i].dot(*p + *v);
             },
         );
-        let load = WallLoad { pressure_force: &self.pressure_force, viscous_force: &self.viscous_force };
+        let (pressure_force, viscous_force) = (&self.pressure_force[..], &self.viscous_force[..]);
+        let load = WallLoad { pressure_force, viscous_force, face_pressure: &[] };
         Ok(self.shell.set_load_with_spread(&load, &self.spread)?)
     }
 

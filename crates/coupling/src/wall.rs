@@ -1,5 +1,6 @@
 //! What a wall that moves has to be able to do, and the solid that can.
 
+use glam::DVec3;
 use vaso_particles::{Memory, WallLoad, WallView};
 use vaso_shell::ShellError;
 use vaso_solid::{Real, Solid, SolidError};
@@ -16,6 +17,18 @@ pub enum CouplingError {
     Shell(#[from] ShellError),
 }
 
+/// A part of the face towards the lumen, which bears the level of the pressure.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Facet {
+    /// Present area, along the normal away from the lumen \[m^2\].
+    pub area: DVec3,
+    /// Velocity \[m/s\].
+    pub velocity: DVec3,
+}
+
+/// Stands for no facet in [`MovingWall::facet_of`].
+pub const NO_FACET: u32 = u32::MAX;
+
 /// A wall that moves, under forces of the fluid or of itself.
 pub trait MovingWall {
     /// Particles as the fluid sees them, with their velocities at the end of the last step; always as many, in the same order.
@@ -24,6 +37,12 @@ pub trait MovingWall {
     /// Strain across the wall per strain of its area, with the other sign, as the particles of the view show it: 1 where they keep their
     /// volume.
     fn thinning(&self) -> f64;
+
+    /// The facet in front of each particle of the view, or [`NO_FACET`]: the fluid in front of the particles is that on the facet.
+    fn facet_of(&self) -> Vec<u32>;
+
+    /// Facet of this number, of those that [`Self::facet_of`] names.
+    fn facet(&self, number: usize) -> Facet;
 
     /// Takes the forces of the fluid, which hold until the next ones.
     ///
@@ -57,6 +76,16 @@ impl<R: Real> MovingWall for Solid<R> {
 
     fn view(&self) -> WallView<'_> {
         self.wall_view()
+    }
+
+    fn facet_of(&self) -> Vec<u32> {
+        // NO_FACET is what the solid has for none.
+        self.behind()
+    }
+
+    fn facet(&self, number: usize) -> Facet {
+        let (out, velocity) = self.borne(number);
+        Facet { area: -out, velocity }
     }
 
     fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {

@@ -173,7 +173,7 @@ fn forces_on_ghosts_are_forces_on_columns() {
     let (mut pressure, mut viscous) = (vec![DVec3::ONE; columns.len()], vec![DVec3::ONE; columns.len()]);
     let mut spread = vec![0.0; columns.len()];
     columns.gather(
-        &WallLoad { pressure_force: &force, viscous_force: &vec![DVec3::ZERO; n] },
+        &WallLoad { pressure_force: &force, viscous_force: &vec![DVec3::ZERO; n], face_pressure: &[] },
         &mut pressure,
         &mut viscous,
         &mut spread,

@@ -40,7 +40,8 @@ fn the_shell_gets_all_the_momentum_of_its_ghosts() {
     let mut wall = ShellWall::new(shell, SPACING, 2.6 * SPACING).expect("at rest");
     let force = forces(wall.view().position.len());
     let none = vec![DVec3::ZERO; force.len()];
-    wall.load(&WallLoad { pressure_force: &force, viscous_force: &none }).expect("a load of the view");
+    wall.load(&WallLoad { pressure_force: &force, viscous_force: &none, face_pressure: &[] })
+        .expect("a load of the view");
     let (sum, size): (DVec3, f64) = (force.iter().sum(), force.iter().map(|f| f.length()).sum());
     assert!(sum.length() > 0.1 * size, "the forces have a resultant");
     // Nothing moves, so the supports bear it all.
@@ -59,7 +60,8 @@ fn forces_do_the_same_work_on_ghosts_as_on_the_shell() {
     let force = forces(wall.view().position.len());
     let none = vec![DVec3::ZERO; force.len()];
     let step = 1e-12;
-    wall.load(&WallLoad { pressure_force: &force, viscous_force: &none }).expect("a load of the view");
+    wall.load(&WallLoad { pressure_force: &force, viscous_force: &none, face_pressure: &[] })
+        .expect("a load of the view");
     wall.advance(step).expect("nothing breaks so soon");
     let power: f64 = force.iter().zip(wall.view().velocity).map(|(f, v)| f.dot(*v)).sum();
     let size: f64 = force.iter().zip(wall.view().velocity).map(|(f, v)| f.dot(*v).abs()).sum();
@@ -78,7 +80,8 @@ fn ghosts_turn_with_the_shell() {
     }
     let mut wall = ShellWall::new(shell, SPACING, 2.6 * SPACING).expect("at rest");
     let still = vec![DVec3::ZERO; wall.view().position.len()];
-    wall.load(&WallLoad { pressure_force: &still, viscous_force: &still }).expect("a load of the view");
+    wall.load(&WallLoad { pressure_force: &still, viscous_force: &still, face_pressure: &[] })
+        .expect("a load of the view");
     wall.advance(1e-9).expect("nothing breaks so soon");
     let view = wall.view();
     for (x, v) in view.position.iter().zip(view.velocity) {

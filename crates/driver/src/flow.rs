@@ -188,9 +188,7 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         }
         ledger.time(Stage::Exchange, || {
             fluid.sort();
-            openings.locate(&fluid.state);
-            let part = fluid.part();
-            openings.tie(&mut fluid.state, self.time, part);
+            openings.locate(&fluid.state, fluid.part());
         });
         if let Some(wall) = wall {
             ledger.time(Stage::Coupling, || wall.show(fluid));

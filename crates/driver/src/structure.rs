@@ -149,6 +149,7 @@ impl PlannedWall {
         hold(&mut solid, case, wall.ends, body, self.thickness)?;
         let inner = face(case, body, Side::Inner, self)?;
         let outer = face(case, body, Side::Outer, self)?;
+        solid.bear(&inner, bodies::support(&case.scene))?;
         if self.carried_pressure != 0.0 {
             solid.add_pressure(&inner, self.carried_pressure)?;
         }

@@ -29,6 +29,19 @@ impl CapZone {
     pub(crate) fn open_depth(&self) -> f64 {
         if self.is_imposed { IMPOSED } else { self.depth.max(0.0) }
     }
+
+    /// The `normal` of the wall near the particle as its continuity has to see it, for a kernel that reaches as far as `reach` \[m\].
+    ///
+    /// The flow there goes along the cap's normal, and into a wall that leans inwards; what that narrows, the flow gains across the cap. As
+    /// continuity sees less of the latter the nearer the cap is, it may see no more of the former: otherwise the pressure of the particle
+    /// rises as it goes outwards and drives it on, which grows at a fraction of `c/dp`.
+    pub(crate) fn upright(&self, normal: DVec3, reach: f64) -> DVec3 {
+        if !self.takes_pressure {
+            return normal;
+        }
+        let unseen = (1.0 - self.depth / reach).clamp(0.0, 1.0);
+        (normal - unseen * normal.dot(self.normal) * self.normal).normalize_or(normal)
+    }
 }
 
 /// Below any depth, by more than a support.

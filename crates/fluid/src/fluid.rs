@@ -267,8 +267,8 @@ impl<R: Real> Fluid<R> {
             for (k, frozen) in frozen.iter_mut().enumerate() {
                 *frozen = Frozen::default();
                 let i = c * CHUNK + k;
-                if let Some(zone) = zone_of[i].checked_sub(1) {
-                    let zone = &zones[zone as usize];
+                let zone = zone_of[i].checked_sub(1).map(|zone| &zones[zone as usize]);
+                if let Some(zone) = zone {
                     frozen.cap_depth = zone.open_depth() / reach;
                     frozen.takes_pressure = zone.takes_pressure;
                 }
@@ -276,7 +276,7 @@ impl<R: Real> Fluid<R> {
                     let moved = displacement.map_or(DVec3::ZERO, |u| u[i]);
                     let (phi, gradient) = distance.sample(position[i] - moved);
                     frozen.inverse_distance = 1.0 / (-phi).clamp(floor, reach);
-                    frozen.wall_normal = -gradient;
+                    frozen.wall_normal = zone.map_or(-gradient, |zone| zone.upright(-gradient, reach));
                 }
             }
         });

@@ -24,3 +24,4 @@ pub use rheology::Rheology;
 pub use state::FluidState;
 pub use transport::Guarded;
 pub use vaso_kernels::{Isa, Real};
+pub use wall_force::Contact;

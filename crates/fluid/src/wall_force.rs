@@ -1,13 +1,27 @@
 //! Forces on a wall that moves: those on the fluid, pair by pair, with the other sign.
 
 use crate::fluid::{Fluid, numbered};
-use crate::law::moving::{BendOnWall, DragOnWall, LeanOnWall, PressureOnWall};
+use crate::law::moving::{BendOnWall, CONTACT_SUMS, DragOnWall, LeanOnWall, PressureOnWall};
 use crate::moving::{Moving, closing_pressure};
 use crate::rheology::shear_rate;
 use crate::viscosity::scaled_strain;
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, PairLaw, Real, Records, Store, sweep};
+
+/// What the pressure of the fluid does to one particle of a wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Contact {
+    /// Force of the pairs \[N\]: that on the fluid with the other sign. The fluid has the differences of its pressures, so the level of the
+    /// pressure is not in it.
+    pub force: DVec3,
+    /// Half of the area it stands for among the fluid, by the kernel sum and the factors of [`Fluid::release_wall`], away from the lumen
+    /// \[m^2\].
+    pub area: DVec3,
+    /// The same of the pressure \[N\]: along the normal, over [`Self::area`], the pressure at the face, and twice this the force that
+    /// [`Self::force`] lacks, as the kernel sums have it.
+    pub level: DVec3,
+}
 
 impl<R: Real> Fluid<R> {
     /// Keeps what the forces on the wall need from the viscous sweep; `bend` stands in the velocity gradient until that is found.
@@ -20,9 +34,9 @@ impl<R: Real> Fluid<R> {
         moving.correction.fill(|i| second[i]);
     }
 
-    /// Writes the force of the pressure and its dissipation on each particle of the wall \[N\], in the order of its view: that of
-    /// the last [`Self::kick`] on the fluid, pair by pair, with the other sign. Call it before [`Self::continuity`].
-    pub fn pressure_on_wall(&mut self, force: &mut [DVec3]) {
+    /// Writes what the pressure and its dissipation do to each particle of the wall, in the order of its view, with the forces of the last
+    /// [`Self::kick`]. Call it before [`Self::continuity`].
+    pub fn pressure_on_wall(&mut self, contact: &mut [Contact]) {
         let Some(mut moving) = self.moving.take() else { return };
         let numbers = &self.numbers;
         let (state, frozen, current) = (&self.state, &self.frozen, self.current.as_slice());
@@ -33,17 +47,19 @@ impl<R: Real> Fluid<R> {
             let change = state.density_change[i];
             // The kick has changed the velocity, not the record.
             let before = DVec3::new(record[4].widen(), record[5].widen(), record[6].widen());
-            let dissipation = closing_pressure(before - near[i], &frozen[i], numbers);
             record[3] = R::pack(state.mass[i] / (numbers.rest_density + change));
-            record[7] = R::pack(numbers.pressure(change) + dissipation);
+            record[4] = R::pack(closing_pressure(before - near[i], &frozen[i], numbers));
+            record[7] = R::pack(numbers.pressure(change));
             record
         });
         let gradient = self.kernel.gradient_scale();
-        let sums = self.gather_on_wall(&PressureOnWall, &self.wall.dynamic, &moving);
-        force.fill(DVec3::ZERO);
+        let sums = self.gather_on_wall::<CONTACT_SUMS>(&PressureOnWall, &self.wall.dynamic, &moving);
+        contact.fill(Contact::default());
         let records = self.wall.dynamic.as_slice();
         for ((&a, record), sum) in moving.source.iter().zip(records).zip(&sums) {
-            force[a as usize] = moving.lever[a as usize] * gradient * record[3].widen() * *sum;
+            let of = |k: usize| gradient * record[3].widen() * DVec3::new(sum[k], sum[k + 1], sum[k + 2]);
+            let lever = moving.lever[a as usize];
+            contact[a as usize] = Contact { force: of(0), area: lever * of(3), level: lever * of(6) };
         }
         self.moving = Some(moving);
     }
@@ -69,16 +85,16 @@ impl<R: Real> Fluid<R> {
             record[7] = R::pack(frozen[i].inverse_distance);
             record
         });
-        let mut drag = self.gather_on_wall(&DragOnWall, own, &moving);
+        let mut drag = self.vectors_on_wall(&DragOnWall, own, &moving);
         let bend = &moving.bend;
         show(&mut moving.seen, |i| (bend[i], frozen[i].wall_distance()));
-        let bent = self.gather_on_wall(&BendOnWall, own, &moving);
+        let bent = self.vectors_on_wall(&BendOnWall, own, &moving);
         drag.iter_mut().zip(&bent).for_each(|(drag, bent)| *drag -= *bent);
         for axis in 0..3 {
             // Near caps what a linear velocity adds is left in, see `viscosity`.
             let column = |i: usize| if zone_of[i] == 0 { slope[i].col(axis) } else { DVec3::ZERO };
             show(&mut moving.seen, |i| (column(i), 0.0));
-            let lean = self.gather_on_wall(&LeanOnWall, own, &moving);
+            let lean = self.vectors_on_wall(&LeanOnWall, own, &moving);
             drag.iter_mut().zip(&lean).for_each(|(drag, lean)| drag[axis] += support * lean.x);
         }
         let scale = self.kernel.gradient_scale() / support;
@@ -89,9 +105,18 @@ impl<R: Real> Fluid<R> {
         self.moving = Some(moving);
     }
 
+    fn vectors_on_wall(&self, law: &impl PairLaw<R, 3>, own: &Records<R>, moving: &Moving<R>) -> Vec<DVec3> {
+        self.gather_on_wall::<3>(law, own, moving).into_iter().map(DVec3::from_array).collect()
+    }
+
     /// Sums of a law over the rows of the wall, among the fluid as it is seen.
-    fn gather_on_wall(&self, law: &impl PairLaw<R, 3>, own: &Records<R>, moving: &Moving<R>) -> Vec<DVec3> {
-        let mut result = vec![DVec3::ZERO; self.wall.len()];
+    fn gather_on_wall<const N: usize>(
+        &self,
+        law: &impl PairLaw<R, N>,
+        own: &Records<R>,
+        moving: &Moving<R>,
+    ) -> Vec<[f64; N]> {
+        let mut result = vec![[0.0; N]; self.wall.len()];
         let isa = self.isa;
         let gather = Gather {
             frame: &self.frame,
@@ -106,11 +131,9 @@ impl<R: Real> Fluid<R> {
             .enumerate()
             .filter(|(_, (_, row))| !row.has_no_pairs())
             .for_each(|(c, (result, row))| {
-                let mut sums = [[0.0; 3]; CHUNK];
+                let mut sums = [[0.0; N]; CHUNK];
                 sweep(isa, law, &gather, numbered(row, c), Store::None, &mut sums);
-                for (sum, lanes) in result.iter_mut().zip(sums) {
-                    *sum = DVec3::from_array(lanes);
-                }
+                result.copy_from_slice(&sums[..result.len()]);
             });
         result
     }

@@ -32,8 +32,10 @@ pub struct WallMotion<'a> {
 /// advective ones.
 #[derive(Clone, Copy, Debug)]
 pub struct WallLoad<'a> {
-    /// Force by pressure and its dissipation \[N\].
+    /// Force by differences of pressure and its dissipation \[N\].
     pub pressure_force: &'a [DVec3],
+    /// Pressure on the faces of the wall \[Pa\], in their order; none on a wall without faces of its own.
+    pub face_pressure: &'a [f64],
     /// Force by viscosity \[N\].
     pub viscous_force: &'a [DVec3],
 }

@@ -114,7 +114,7 @@ impl<R: Real> Shell<R> {
         if force.len() == expected {
             self.forces.spread(&self.state, spread, &mut force);
         }
-        self.set_load(&WallLoad { pressure_force: &force, viscous_force: load.viscous_force })
+        self.set_load(&WallLoad { pressure_force: &force, ..*load })
     }
 }
 

@@ -59,7 +59,7 @@ fn supports_bear_the_load() {
     assert!((dead.reaction() + weight).length() < 1e-5 * weight.length());
     let by_fluid = settled(&|shell| {
         let (pressure, viscous) = (vec![0.5 * force; body.len()], vec![0.5 * force; body.len()]);
-        let load = WallLoad { pressure_force: &pressure, viscous_force: &viscous };
+        let load = WallLoad { pressure_force: &pressure, viscous_force: &viscous, face_pressure: &[] };
         shell.set_load(&load).expect("one each");
     });
     let middle = dead.place(body.nearest(DVec3::new(5e-3, 5e-3, 0.0)));

@@ -6,6 +6,7 @@ mod face;
 mod formulation;
 pub mod law;
 mod load;
+mod lumen;
 mod mat3;
 pub mod material;
 mod numbers;

@@ -1,6 +1,7 @@
 //! Loads and springs: what acts on a solid from outside.
 
 use crate::formulation::Formulation;
+use crate::lumen::Lumen;
 use crate::state::SolidState;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -43,6 +44,8 @@ pub(crate) struct Loads {
     /// Force of the fluid \[N\], empty before there is one.
     pub(crate) fluid: Vec<DVec3>,
     pub(crate) pressures: Vec<Pressure>,
+    /// Face under the pressure of the fluid.
+    pub(crate) lumen: Option<Lumen>,
     pub(crate) tissue: Vec<Tissue>,
     pub(crate) impedance: Vec<Impedance>,
     /// Acceleration by all of them \[m/s^2\], empty where there are none.
@@ -52,7 +55,7 @@ pub(crate) struct Loads {
 impl Loads {
     /// Whether the loads change while the body moves.
     pub(crate) fn follow(&self) -> bool {
-        !self.pressures.is_empty() || !self.tissue.is_empty()
+        !self.pressures.is_empty() || !self.tissue.is_empty() || self.lumen.is_some()
     }
 
     /// Whether there are any.
@@ -78,6 +81,9 @@ impl Loads {
                 let present = crate::material::cofactor(&body.deformation(i)) * area;
                 self.acceleration[i] -= (pressure.value / mass[i]) * present;
             }
+        }
+        if let Some(lumen) = &self.lumen {
+            lumen.push(body, mass, &mut self.acceleration);
         }
         for tissue in &self.tissue {
             let i = tissue.at as usize;

@@ -5,6 +5,7 @@ use crate::error::{SolidError, within};
 use crate::face::Face;
 use crate::formulation::Formulation;
 use crate::load::{Impedance, Loads, Pressure, Tissue};
+use crate::lumen::Lumen;
 use crate::material::{Elastic, Fibres, Material};
 use crate::numbers::Numbers;
 use crate::reference::{Arrangement, Reference};
@@ -156,7 +157,7 @@ impl<R: Real> Solid<R> {
         self.place[particle] as usize
     }
 
-    fn places(&self, what: &'static str, particles: &[u32]) -> Result<Vec<u32>, SolidError> {
+    pub(crate) fn places(&self, what: &'static str, particles: &[u32]) -> Result<Vec<u32>, SolidError> {
         let len = self.place.len();
         let find = |&p: &u32| {
             let particle = p as usize;
@@ -262,7 +263,7 @@ impl<R: Real> Solid<R> {
     /// Takes the forces of the fluid, which hold until the next ones.
     ///
     /// # Errors
-    /// [`SolidError::Count`] unless there is one force a particle.
+    /// [`SolidError::Count`] unless there is one force a particle, and one pressure a particle of the face of [`Self::bear`].
     pub fn set_load(&mut self, load: &WallLoad) -> Result<(), SolidError> {
         let expected = self.state.len();
         for (what, given) in
@@ -271,6 +272,13 @@ impl<R: Real> Solid<R> {
             if given != expected {
                 return Err(SolidError::Count { what, given, expected });
             }
+        }
+        if let Some(lumen) = &mut self.loads.lumen {
+            let (given, expected) = (load.face_pressure.len(), lumen.len());
+            if given != expected {
+                return Err(SolidError::Count { what: "face_pressure", given, expected });
+            }
+            lumen.set_pressure(load.face_pressure);
         }
         let both = load.pressure_force.iter().zip(load.viscous_force);
         self.loads.fluid.clear();
@@ -304,6 +312,9 @@ impl<R: Real> Solid<R> {
         memory.fields(&format!("{name}.energies_j"), &mut [dissipation, load_work]);
         // Empty before the first load.
         memory.vectors(&format!("{name}.load_n"), &mut loads.fluid);
+        if let Some(lumen) = &mut loads.lumen {
+            memory.fixed_numbers(&format!("{name}.face_pressure_pa"), lumen.pressure_mut());
+        }
     }
 
     /// Neighbour pairs, each direction counted.
@@ -316,7 +327,8 @@ impl<R: Real> Solid<R> {
         let vectors = self.shown.as_ref().map_or(0, |s| 3 * s.position.capacity())
             + self.loads.fluid.capacity()
             + self.loads.acceleration.capacity();
-        let working = self.body.bytes() + vectors * size_of::<DVec3>() + 4 * self.place.capacity();
+        let lumen = self.loads.lumen.as_ref().map_or(0, Lumen::bytes);
+        let working = self.body.bytes() + vectors * size_of::<DVec3>() + 4 * self.place.capacity() + lumen;
         visit::bytes(self) + working
     }
 }

@@ -170,7 +170,13 @@ fn impedance_keeps_a_light_wall_stable() {
         for _ in 0..5 {
             let answer = solid.state.velocity.iter().map(|v| -impedance * SPACING * SPACING * *v);
             let pressure_force: Vec<DVec3> = answer.collect();
-            solid.set_load(&WallLoad { pressure_force: &pressure_force, viscous_force: &none }).expect("64");
+            solid
+                .set_load(&WallLoad {
+                    pressure_force: &pressure_force,
+                    viscous_force: &none,
+                    face_pressure: &[],
+                })
+                .expect("64");
             solid.advance_in(dt, 1).expect("a rigid motion");
         }
         solid.state.velocity[0].z / 1e-3
@@ -249,7 +255,8 @@ fn a_fluid_sees_what_its_forces_do() {
             .expect("a sound body");
     let n = solid.state.len();
     let (pressure_force, viscous_force) = (vec![2e-6 * DVec3::Z; n], vec![1e-6 * DVec3::X; n]);
-    let load = WallLoad { pressure_force: &pressure_force, viscous_force: &viscous_force };
+    let load =
+        WallLoad { pressure_force: &pressure_force, viscous_force: &viscous_force, face_pressure: &[] };
     solid.set_load(&load).expect("one force a particle");
     let before = solid.wall_view().position.to_vec();
     let dt = 3.5 * solid.stable_step();
@@ -269,7 +276,8 @@ fn a_fluid_sees_what_its_forces_do() {
     }
     let energies = solid.energies();
     assert!((energies.load_work / energies.kinetic - 1.0).abs() < 1e-9, "work becomes motion");
-    let short = WallLoad { pressure_force: &pressure_force[1..], viscous_force: &viscous_force };
+    let short =
+        WallLoad { pressure_force: &pressure_force[1..], viscous_force: &viscous_force, face_pressure: &[] };
     assert!(matches!(solid.set_load(&short), Err(SolidError::Count { what: "pressure_force", .. })));
 }
 

@@ -69,7 +69,7 @@ impl Run {
             openings.exchange(&mut fluid.state, *time);
         }
         fluid.sort();
-        openings.locate(&fluid.state);
+        openings.locate(&fluid.state, 1.0);
         fluid.search(openings.zones());
         fluid.summation(openings.zones());
         fluid.viscosity();

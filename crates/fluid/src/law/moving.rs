@@ -98,14 +98,17 @@ impl<R: Real> PairLaw<R, 5> for AcceleratedWallPressure {
     }
 }
 
+/// Number of sums of [`PressureOnWall`].
+pub const CONTACT_SUMS: usize = 9;
+
 /// Wall among the fluid: what [`WallPressureForce`](super::pressure::WallPressureForce) and the own pressure of the particles do
-/// to them, with the other sign. The scalar of the wall is its pressure, that of the fluid its pressure and that of the
-/// dissipation; the second record is the correction matrix of the fluid.
+/// to them, with the other sign, and what the faces of the wall need. The scalar of the wall is its pressure, that of the fluid its
+/// pressure and the first of its vector that of the dissipation; the second record is the correction matrix of the fluid.
 ///
-/// Sums of `V_i u^3 (p_i + p_a) B_i d`.
+/// With `w = V_i u^3 B_i d` the sums are of `(p_a - p_i + q_i) w` in `[0..3]`, of `w` in `[3..6]` and of `p_i w` in `[6..9]`.
 pub struct PressureOnWall;
 
-impl<R: Real> PairLaw<R, 3> for PressureOnWall {
+impl<R: Real> PairLaw<R, CONTACT_SUMS> for PressureOnWall {
     type Constants<L: Lanes<Elem = R>> = ();
     const SECOND: bool = true;
     const SECOND_OWN: bool = false;
@@ -113,9 +116,12 @@ impl<R: Real> PairLaw<R, 3> for PressureOnWall {
     fn constants<L: Lanes<Elem = R>>(&self) {}
 
     #[inline(always)]
-    fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; 3]) {
-        let weight = gradient_weight(p.u, p.volume) * (p.scalar + own.scalar);
-        add_scaled(sums, 0, weight, sym_mul(&p.second, p.d));
+    fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; CONTACT_SUMS]) {
+        let weight = gradient_weight(p.u, p.volume);
+        let along = sym_mul(&p.second, p.d);
+        add_scaled(sums, 0, weight * (own.scalar - p.scalar + p.velocity[0]), along);
+        add_scaled(sums, 3, weight, along);
+        add_scaled(sums, 6, weight * p.scalar, along);
     }
 }
 

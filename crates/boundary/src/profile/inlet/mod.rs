@@ -8,6 +8,7 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 use vaso_fluid::Numbers;
 use vaso_geometry::Opening;
+use vaso_particles::Memory;
 
 /// A profile over a cap: a steady shape, and for pulsatile flow one complex shape a harmonic.
 #[derive(Clone, Debug)]
@@ -18,6 +19,8 @@ pub struct Inlet {
     /// Factors that make the flow of the particles the asked one, steady part and harmonics.
     factor: f64,
     wave_factors: Vec<Complex64>,
+    /// Whether the factors have been found once.
+    is_scaled: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -33,6 +36,9 @@ const HARMONICS: usize = 16;
 const FAINT: f64 = 1e-3;
 /// Bounds of the factors that make the injected flow the asked one.
 const FLOW_FACTOR: (f64, f64) = (0.8, 1.25);
+/// Share of the way to the factors of the moment that is gone in an advective step: what chance has in the buffer changes from step to step by
+/// some per cent, and a velocity that followed it at once would be heard as sound. A buffer is passed in about ten steps.
+const FOLLOWED: f64 = 0.1;
 
 /// How much of each shape flows at a moment \[m/s\].
 #[derive(Clone, Debug, Default)]
@@ -71,7 +77,7 @@ impl Inlet {
         let waves: Vec<Harmonic> =
             waves.map(|w| Harmonic::new(opening.radius * (w / viscous).sqrt())).collect();
         let wave_factors = vec![Complex64::ONE; waves.len()];
-        Self { shape, waves, series, factor: 1.0, wave_factors }
+        Self { shape, waves, series, factor: 1.0, wave_factors, is_scaled: false }
     }
 
     /// Steady velocity over its mean at the in-plane point `at` \[m\] about the centre of the cap.
@@ -107,16 +113,33 @@ impl Inlet {
         self.waves.iter().map(move |wave| wave.at(radius))
     }
 
-    /// Makes the flow that the particles carry the asked one, from what they carry of each shape and what they ought to
-    /// \[m^3\].
-    pub(crate) fn scale(&mut self, steady: f64, waves: &[Complex64], asked: f64) {
+    /// Brings the flow that the particles carry to the asked one, from what they carry of each shape and what they ought to
+    /// \[m^3\]: at once the first time, later within the time in which the buffer is passed. `part` is that of a full advective step which the
+    /// last one was.
+    pub(crate) fn scale(&mut self, steady: f64, waves: &[Complex64], asked: f64, part: f64) {
         let (low, high) = FLOW_FACTOR;
-        self.factor = if steady > 0.0 { (asked / steady).clamp(low, high) } else { 1.0 };
+        let share = if self.is_scaled { part * FOLLOWED } else { 1.0 };
+        self.is_scaled = true;
+        let factor = if steady > 0.0 { (asked / steady).clamp(low, high) } else { 1.0 };
+        self.factor += share * (factor - self.factor);
         for (factor, carried) in self.wave_factors.iter_mut().zip(waves) {
             let wanted = asked / carried;
             let size = wanted.norm();
-            *factor = if size.is_finite() { wanted * (size.clamp(low, high) / size) } else { Complex64::ONE };
+            let wanted =
+                if size.is_finite() { wanted * (size.clamp(low, high) / size) } else { Complex64::ONE };
+            *factor += share * (wanted - *factor);
         }
+    }
+
+    /// Shows the factors, which the next step goes on from.
+    pub(crate) fn remember(&mut self, name: &str, memory: &mut dyn Memory) {
+        let Self { shape: _, waves: _, series: _, factor, wave_factors, is_scaled } = self;
+        let mut scaled = u64::from(*is_scaled);
+        memory.counts(&format!("{name}.is_scaled"), &mut [&mut scaled]);
+        *is_scaled = scaled != 0;
+        memory.fields(&format!("{name}.factor"), &mut [factor]);
+        let mut parts: Vec<&mut f64> = wave_factors.iter_mut().flat_map(|w| [&mut w.re, &mut w.im]).collect();
+        memory.fields(&format!("{name}.wave_factors"), &mut parts);
     }
 
     /// How much of each shape flows at `t` \[s\], the factors included.

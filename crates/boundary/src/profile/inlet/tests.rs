@@ -125,7 +125,7 @@ fn the_discrete_flow_is_the_asked_one_at_every_moment() {
     };
     let carried: Vec<Complex64> = (0..n).map(|k| Complex64::new(part(k, false), part(k, true))).collect();
     let steady = mean(&opening, coarse, |at| inlet.steady(at));
-    inlet.scale(steady, &carried, 1.0);
+    inlet.scale(steady, &carried, 1.0, 1.0);
     for k in 0..40 {
         let t = 0.031 * f64::from(k);
         let flow = mean(&opening, coarse, |at| inlet.velocity(at, &signal, t));
