@@ -77,9 +77,7 @@ fn run(data: &Path, spacing: f64, generator: &str) -> Outcome {
 
 fn check(o: &Outcome) {
     assert_eq!(o.escaped, 0, "{o:?}");
-    // Of single particles in the buffers of the outlets, 2 to 4 % by what chance has them there; in the vessel the mean is off by 0.3 %,
-    // with a deviation of 0.1 % about it.
-    assert!(o.density < 0.05, "{o:?}");
+    assert!(o.density < 0.02, "{o:?}");
     assert!(o.balance.abs() < 0.01, "{o:?}");
     assert!((o.share - o.share_before).abs() < 0.02, "the split still moves: {o:?}");
 }

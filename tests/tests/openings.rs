@@ -142,13 +142,14 @@ fn an_elastic_tube_takes_up_what_flows_in() {
     }
 }
 
-/// A slow flow through a pipe whose outlet is cut 15 degrees off its section, so that the wall leans inwards at one side of it. Sound is as
-/// fast as beside a stiff wall that deforms: what drives a particle at the rim grows a hundred times while it passes.
+/// A slow flow through a pipe that is cut 15 degrees off its section at both ends. Sound is as fast as beside a stiff wall that deforms: what
+/// drives a particle at the rim of the outlet grows a hundred times while it passes, and a velocity along the normal of the inlet would
+/// go through its wall.
 #[test]
-fn an_outlet_into_which_a_wall_leans_drives_nothing_out() {
+fn a_pipe_that_is_cut_obliquely_drives_nothing_out() {
     let (radius, length, spacing) = (2e-3, 16e-3, 0.5e-3);
     let surface = shapes::pipe(radius, length, DVec3::Z, 64)
-        .map(|v| DVec3::new(v.x, v.y, v.z + 15_f64.to_radians().tan() * v.x * v.z / length));
+        .map(|v| DVec3::new(v.x, v.y, v.z + 15_f64.to_radians().tan() * v.x));
     let text = format!(
         "[particles]\nspacing = \"{spacing} m\"\n[blood]\ndensity = \"1060 kg/m^3\"\nviscosity = \"3.5 mPa s\"\n\
          [[opening]]\nname = \"inlet\"\nnear = [0, 0, 0]\ncondition = \"velocity\"\nprofile = \"plug\"\nvalue = \"0.1 m/s\"\n\
@@ -165,7 +166,7 @@ fn an_outlet_into_which_a_wall_leans_drives_nothing_out() {
     let (speed, density) = (flow.watch.max_mach * 100.0, flow.watch.max_density_error);
     println!("up to {speed:.3} m/s, density off by up to {:.4} %", 100.0 * density);
     assert_eq!(flow.watch.escaped, 0);
-    // On the axis it goes at less than twice the mean.
-    assert!(speed < 0.25, "{speed}");
+    // On the axis it goes at twice the mean.
+    assert!(speed < 0.4, "{speed}");
     assert!(density < 5e-4, "{density}");
 }

@@ -42,7 +42,7 @@ impl Openings {
                 continue;
             }
             let normal = port.opening.normal;
-            let (mut place, mut velocity) = (state.position[i] + length * normal, state.velocity[i]);
+            let (mut place, mut velocity) = (state.position[i] + length * port.stride(), state.velocity[i]);
             if port.condition.sets_pressure() {
                 let room = room[k].get_or_insert_with(|| {
                     Room::new(&self.places[k], &port.opening, k as i32, self.spacing, state)
@@ -94,7 +94,7 @@ impl Openings {
     fn left_through(&self, x: DVec3) -> Option<usize> {
         self.ports.iter().position(|port| {
             let s = port.opening.depth(x);
-            s < 0.0 && s > -self.buffer_length() && port.opening.lateral(x) < self.spacing
+            s < 0.0 && s > -self.buffer_length() && port.lateral(x) < self.spacing
         })
     }
 
@@ -111,7 +111,7 @@ impl Openings {
                     let s = port.opening.depth(x);
                     let reach = if before == k as i32 { length + fringe } else { length };
                     if (0.0..=reach).contains(&s) {
-                        let lateral = port.opening.lateral(x);
+                        let lateral = port.lateral(x);
                         if lateral < nearest {
                             nearest = lateral;
                             *label = k as i32;
@@ -138,7 +138,7 @@ impl Openings {
                     if !(-length..reach).contains(&s) {
                         return None;
                     }
-                    let lateral = port.opening.lateral(x);
+                    let lateral = port.lateral(x);
                     (lateral < spacing).then_some((lateral, k, s))
                 });
                 let (_, k, s) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -167,7 +167,8 @@ impl Openings {
         let (ports, zones) = (&self.ports, &self.zones);
         let place = |zone: &CapZone| {
             let port = &ports[zone.opening as usize];
-            let at = port.opening.project(state.position[zone.particle as usize]);
+            let x = state.position[zone.particle as usize];
+            let at = port.opening.project(x + port.opening.depth(x) * port.stride());
             port.inlet.as_ref().map(|inlet| (inlet, at))
         };
         self.shape.clear();

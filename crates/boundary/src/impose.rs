@@ -36,7 +36,7 @@ impl Openings {
                 // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
                 Condition::Velocity { .. } if owned => {
                     let pulse: Complex64 = own_waves.iter().zip(&inflow[k].waves).map(|(w, a)| w * a).sum();
-                    Some(-zone.normal * (inflow[k].steady * shape + pulse.re))
+                    Some(-port.stride() * (inflow[k].steady * shape + pulse.re))
                 }
                 Condition::Velocity { .. } => None,
                 _ if !zone.in_buffer => None,
@@ -112,7 +112,7 @@ impl Openings {
                         .filter(|&i| {
                             let x = state.position[i];
                             (near..far).contains(&port.opening.depth(x))
-                                && port.opening.lateral(x) < port.opening.radius
+                                && port.lateral(x) < port.opening.radius
                         })
                         .fold((0.0, 0), |(sum, n), i| (sum + state.pressure[i], n + 1));
                     reference + sum / f64::from(n.max(1))

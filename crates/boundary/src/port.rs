@@ -4,6 +4,7 @@ use crate::error::BoundaryError;
 use crate::outlet::{Outlet, OutletState, Windkessel};
 use crate::profile::{Amplitudes, Inlet, Profile};
 use crate::waveform::Signal;
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use vaso_geometry::Opening;
 use vaso_particles::Memory;
@@ -116,6 +117,18 @@ impl Port {
         if let Some(inlet) = inlet {
             inlet.remember(&format!("{name}.inlet"), memory);
         }
+    }
+
+    /// Way of the particles of the buffer that leads a unit length out of the cap. An imposed velocity goes along the vessel: along the normal it would
+    /// go through a wall that leans. Where a pressure is imposed they go along the normal, since their continuity looks along the cap only, and would
+    /// take a flow across the normal that varies for compression.
+    pub(crate) fn stride(&self) -> DVec3 {
+        if self.condition.sets_pressure() { self.opening.normal } else { self.opening.stride() }
+    }
+
+    /// How far `x` is beside the buffer \[m\], negative in it.
+    pub(crate) fn lateral(&self, x: DVec3) -> f64 {
+        if self.condition.sets_pressure() { self.opening.lateral(x) } else { self.opening.beside(x) }
     }
 
     /// How much of each shape of its profile flows in at `t` \[s\]; nothing where it imposes no velocity.

@@ -119,6 +119,7 @@ mod tests {
             radius: (16.0 / std::f64::consts::PI).sqrt(),
             polygon,
             axes: [DVec3::X, DVec3::Y],
+            axis: DVec3::Z,
         }
     }
 

@@ -16,7 +16,7 @@ impl Openings {
         for port in &self.ports {
             let is_behind = |i: &u32| {
                 let x = state.position[*i as usize];
-                (from..to).contains(&port.opening.depth(x)) && port.opening.lateral(x) < self.spacing
+                (from..to).contains(&port.opening.depth(x)) && port.lateral(x) < self.spacing
             };
             self.behind.push(if port.condition.sets_pressure() {
                 Vec::new()

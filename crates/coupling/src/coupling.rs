@@ -2,6 +2,7 @@
 
 use crate::wall::{CouplingError, Facet, MovingWall, NO_FACET};
 use glam::DVec3;
+use rayon::prelude::*;
 use vaso_fluid::{Contact, Fluid, Real};
 use vaso_particles::{Memory, WallLoad, WallView};
 
@@ -84,23 +85,30 @@ impl<W: MovingWall> Coupling<W> {
     /// Takes the pressure of the kick.
     pub fn take_pressure<R: Real>(&mut self, fluid: &mut Fluid<R>) {
         fluid.pressure_on_wall(&mut self.contact);
-        let Self { contact, start, behind, bare, pressure_force, face_pressure, wall, .. } = self;
+        let Self { contact, start, behind, bare, pressure_force, face_pressure, facets, wall, .. } = self;
         pressure_force.iter_mut().zip(&*contact).for_each(|(force, contact)| *force = contact.force);
         for &a in &*bare {
             pressure_force[a as usize] += 2.0 * contact[a as usize].level;
         }
-        // One by one: a wall is not shared between threads.
-        for (number, pressure) in face_pressure.iter_mut().enumerate() {
-            let whole = wall.facet(number).area;
-            let (mut area, mut level) = (0.0, 0.0);
-            for &a in &behind[start[number] as usize..start[number + 1] as usize] {
-                let contact = &contact[a as usize];
-                area += contact.area.dot(whole);
-                level += contact.level.dot(whole);
-            }
-            let bound = WETTED * 0.5 * whole.length_squared();
-            *pressure = if area > 0.0 { level / area.max(bound) } else { 0.0 };
-        }
+        let wall = &*wall;
+        (0..face_pressure.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|number| wall.facet(number))
+            .collect_into_vec(facets);
+        face_pressure.par_iter_mut().zip(&*facets).enumerate().with_min_len(256).for_each(
+            |(number, (pressure, facet))| {
+                let whole = facet.area;
+                let (mut area, mut level) = (0.0, 0.0);
+                for &a in &behind[start[number] as usize..start[number + 1] as usize] {
+                    let contact = &contact[a as usize];
+                    area += contact.area.dot(whole);
+                    level += contact.level.dot(whole);
+                }
+                let bound = WETTED * 0.5 * whole.length_squared();
+                *pressure = if area > 0.0 { level / area.max(bound) } else { 0.0 };
+            },
+        );
     }
 
     /// Moves the wall by an acoustic step `dt` \[s\] under what has been taken.
@@ -111,25 +119,26 @@ impl<W: MovingWall> Coupling<W> {
         let (pressure_force, viscous_force) = (&self.pressure_force, &self.viscous_force);
         let load = WallLoad { pressure_force, viscous_force, face_pressure: &self.face_pressure };
         self.wall.load(&load)?;
-        let facets = |wall: &W, n: usize| (0..n).map(|number| wall.facet(number)).collect();
-        self.facets = facets(&self.wall, self.face_pressure.len());
         self.before.clear();
         self.before.extend_from_slice(self.wall.view().velocity);
         self.substeps += self.wall.advance(dt)? as u64;
         self.steps += 1;
-        // Forces are constant over the step, velocities about linear.
-        let velocity = self.before.iter().zip(self.wall.view().velocity).map(|(old, new)| *old + *new);
-        let forces = self.pressure_force.iter().zip(&self.viscous_force).map(|(p, v)| *p + *v);
+        let wall = &self.wall;
+        let after = wall.view().velocity;
         let share = 1.0 / (1.0 + FILTER);
-        let velocities = self.before.iter().zip(self.wall.view().velocity);
-        for (a, (old, new)) in self.acceleration.iter_mut().zip(velocities) {
-            *a += share * ((*new - *old) / dt - *a);
-        }
-        let mut power = velocity.zip(forces).map(|(v, force)| v.dot(force)).sum::<f64>();
-        for (number, (pressure, old)) in self.face_pressure.iter().zip(&self.facets).enumerate() {
-            let new = self.wall.facet(number);
-            power += pressure * 0.5 * (old.area + new.area).dot(old.velocity + new.velocity);
-        }
+        (&mut self.acceleration, &self.before, after)
+            .into_par_iter()
+            .with_min_len(4096)
+            .for_each(|(a, old, new)| *a += share * ((*new - *old) / dt - *a));
+        // Forces are constant over the step, velocities about linear.
+        let on_particles = (&self.before, after, pressure_force, viscous_force).into_par_iter();
+        let power = ordered_sum(on_particles.map(|(old, new, p, v)| (*old + *new).dot(*p + *v)))
+            + ordered_sum((&self.face_pressure, &self.facets).into_par_iter().enumerate().map(
+                |(number, (pressure, old))| {
+                    let new = wall.facet(number);
+                    pressure * 0.5 * (old.area + new.area).dot(old.velocity + new.velocity)
+                },
+            ));
         self.work += 0.5 * dt * power;
         Ok(())
     }
@@ -189,6 +198,11 @@ impl<W: MovingWall> Coupling<W> {
         let lists = self.behind.capacity() + self.start.capacity() + self.bare.capacity();
         size_of::<DVec3>() * vectors + size_of::<Contact>() * self.contact.capacity() + facets + 4 * lists
     }
+}
+
+/// Sum in pieces of fixed length, whatever the threads.
+fn ordered_sum(terms: impl IndexedParallelIterator<Item = f64>) -> f64 {
+    terms.fold_chunks(1024, || 0.0, |sum, term| sum + term).collect::<Vec<f64>>().iter().sum()
 }
 
 /// Particles by facet: where those of each facet begin, the particles in this order, and those without a facet.

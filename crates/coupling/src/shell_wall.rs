@@ -112,11 +112,10 @@ impl<R: Real> MovingWall for ShellWall<R> {
 
     fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {
         self.columns.gather(load, &mut self.pressure_force, &mut self.viscous_force, &mut self.spread);
-        for ((force, pressure), foot) in
-            self.pressure_force.iter_mut().zip(load.face_pressure).zip(self.columns.feet())
-        {
-            *force += *pressure * foot.area * foot.normal;
-        }
+        (&mut self.pressure_force, load.face_pressure, self.columns.feet())
+            .into_par_iter()
+            .with_min_len(1024)
+            .for_each(|(force, pressure, foot)| *force += *pressure * foot.area * foot.normal);
         let (state, thinning) = (&self.shell.state, thinning(&self.shell));
         let forces = self.pressure_force.par_iter().zip(&self.viscous_force);
         self.spread.par_iter_mut().zip(forces).enumerate().with_min_len(1024).for_each(

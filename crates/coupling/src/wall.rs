@@ -30,7 +30,7 @@ pub struct Facet {
 pub const NO_FACET: u32 = u32::MAX;
 
 /// A wall that moves, under forces of the fluid or of itself.
-pub trait MovingWall {
+pub trait MovingWall: Sync {
     /// Particles as the fluid sees them, with their velocities at the end of the last step; always as many, in the same order.
     fn view(&self) -> WallView<'_>;
 

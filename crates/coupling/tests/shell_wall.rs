@@ -60,11 +60,18 @@ fn forces_do_the_same_work_on_ghosts_as_on_the_shell() {
     let force = forces(wall.view().position.len());
     let none = vec![DVec3::ZERO; force.len()];
     let step = 1e-12;
-    wall.load(&WallLoad { pressure_force: &force, viscous_force: &none, face_pressure: &[] })
+    let pressure: Vec<f64> =
+        (0..wall.shell.state.len()).map(|k| 1e3 * (2.0 + (3.7 * k as f64).sin())).collect();
+    wall.load(&WallLoad { pressure_force: &force, viscous_force: &none, face_pressure: &pressure })
         .expect("a load of the view");
     wall.advance(step).expect("nothing breaks so soon");
-    let power: f64 = force.iter().zip(wall.view().velocity).map(|(f, v)| f.dot(*v)).sum();
-    let size: f64 = force.iter().zip(wall.view().velocity).map(|(f, v)| f.dot(*v).abs()).sum();
+    let on_ghosts = force.iter().zip(wall.view().velocity).map(|(f, v)| f.dot(*v));
+    let on_facets = pressure.iter().enumerate().map(|(k, p)| {
+        let facet = wall.facet(k);
+        p * facet.area.dot(facet.velocity)
+    });
+    let parts: Vec<f64> = on_ghosts.chain(on_facets).collect();
+    let (power, size): (f64, f64) = (parts.iter().sum(), parts.iter().map(|p| p.abs()).sum());
     let found = wall.shell.energies().load_work / step;
     assert!((found - power).abs() < 1e-5 * size, "{found} {power} of {size}");
 }

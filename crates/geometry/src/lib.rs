@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod audit;
+mod axis;
 mod caps;
 mod centerline;
 mod close;

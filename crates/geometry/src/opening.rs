@@ -20,6 +20,8 @@ pub struct Opening {
     pub polygon: Vec<[f64; 2]>,
     /// Unit axes in the plane: the longer principal axis of the area, and `normal` x that.
     pub axes: [DVec3; 2],
+    /// Unit vector along the vessel behind the cap, out of the domain: what its wall runs along. The normal, where the vessel is cut squarely.
+    pub axis: DVec3,
 }
 
 impl Opening {
@@ -51,6 +53,7 @@ impl Opening {
             radius: (area / std::f64::consts::PI).sqrt(),
             polygon: project_all(points, center, axes),
             axes,
+            axis: normal,
         })
     }
 
@@ -68,6 +71,22 @@ impl Opening {
     /// In-plane distance from `x` to the border of the cap \[m\]; negative over the cap.
     pub fn lateral(&self, x: DVec3) -> f64 {
         polygon::signed_distance(&self.polygon, self.project(x))
+    }
+
+    /// Way along the vessel that leads a unit length out of the cap plane.
+    pub fn stride(&self) -> DVec3 {
+        self.axis / self.axis.dot(self.normal)
+    }
+
+    /// Point of the cap plane that `x` comes to along the vessel; from outside straight along the normal.
+    pub fn foot(&self, x: DVec3) -> DVec3 {
+        let depth = self.depth(x);
+        x + depth * if depth > 0.0 { self.stride() } else { self.normal }
+    }
+
+    /// [`Self::lateral`] of the [`Self::foot`] of `x`: how far it is beside the vessel behind the cap \[m\].
+    pub fn beside(&self, x: DVec3) -> f64 {
+        self.lateral(self.foot(x))
     }
 
     /// Distance from `x` to the cap itself \[m\], never negative.

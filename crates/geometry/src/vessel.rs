@@ -122,6 +122,7 @@ pub fn prepare(raw: Surface, unit: Option<LengthUnit>) -> Result<Vessel, Geometr
     let mut vessel = Vessel { surface, face_opening, openings, audit, unit };
     vessel.drop_sealed_components();
     vessel.sort_openings();
+    vessel.find_axes();
     vessel.measure();
     let (volume_m3, diagonal_m) = (vessel.surface.volume(), vessel.surface.diagonal());
     if volume_m3 <= MIN_VOLUME * diagonal_m.powi(3) {

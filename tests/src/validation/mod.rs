@@ -4,6 +4,7 @@
 //! spacing, which the tests make.
 
 pub mod backflow;
+pub mod common_carotid;
 pub mod ends;
 pub mod frames;
 pub mod lumped;
@@ -167,6 +168,7 @@ pub const CASES: &[Case] = &[
     backflow::CASE,
     thinning::CASE,
     nozzle::CASE,
+    common_carotid::CASE,
     patients::CAROTID,
     patients::AORTA,
 ];

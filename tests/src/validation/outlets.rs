@@ -47,8 +47,8 @@ pub const SVFSI: Case = Case {
              makes the outflow 1/cos(w L/c) of the inflow, 1.001 here. The pipe holds six strokes, so that a thousandth of its \
              volume, filled and emptied within a tenth of the cycle, is 3 % of the peak flow: the flow shows what the density \
              does, the pressure what comes of it. At D/10 and 20 m/s they were off by 7.5 and 10.6 % while pairs had the sum of their pressures. \
-             With two switches that were made for this case alone, of which one is gone, the pressure was within 0.7 %. What is left is sound: \
-             each advective step the profile is scaled to the particles that happen to be in the buffer, and rho c times that jump is heard. A finer \
+             With two switches that were made for this case alone, of which one is gone, the pressure was within 0.7 %. What is left is not explained; it \
+             is not the factor of the inlet, which no longer jumps with what the buffer happens to hold. A finer \
              spacing has not been run in this form.",
     quick: Some(|| svfsi(10.0, 1.0)),
     full: || svfsi(10.0, 2.0),

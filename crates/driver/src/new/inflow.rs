@@ -129,6 +129,7 @@ mod tests {
                 radius,
                 polygon,
                 axes: [glam::DVec3::X, glam::DVec3::Y],
+                axis: glam::DVec3::Z,
             };
             Inflow::new(&opening, std::slice::from_ref(&opening))
         };
