@@ -7,6 +7,7 @@ use crate::quality::generator_name;
 use std::fmt::Write;
 use vaso_boundary::{Condition, Signal, Source};
 use vaso_scene::Word;
+use vaso_units::significant;
 
 /// The geometry audit, in lines.
 pub fn audit(vessel: &vaso_geometry::Vessel, file: &std::path::Path) -> String {
@@ -151,28 +152,32 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
 fn condition(c: &Condition) -> String {
     match c {
         Condition::Velocity { profile, mean } => {
-            format!("velocity {}, {:?} profile, ramp {} ms", signal(mean, "m/s"), profile, 1e3 * mean.ramp)
+            let ramp = significant(1e3 * mean.ramp);
+            format!("velocity {}, {profile:?} profile, ramp {ramp} ms", signal(mean, "m/s"))
                 .replace("Plug", "plug")
                 .replace("Parabolic", "parabolic")
                 .replace("FullyDeveloped", "fully developed")
         }
         Condition::Pressure { value } => format!("pressure {}", signal(value, "Pa")),
         Condition::Resistance { resistance, distal_pressure } => {
-            format!("resistance {resistance:.4e} Pa s/m3 over {distal_pressure} Pa")
+            format!("resistance {resistance:.4e} Pa s/m3 over {} Pa", significant(*distal_pressure))
         }
         Condition::Windkessel { model, initial_pressure } => format!(
             "windkessel Rp {:.4e} Rd {:.4e} Pa s/m3, C {:.4e} m3/Pa over {} Pa, from {initial_pressure:.0} Pa",
-            model.proximal_resistance, model.distal_resistance, model.compliance, model.distal_pressure
+            model.proximal_resistance,
+            model.distal_resistance,
+            model.compliance,
+            significant(model.distal_pressure)
         ),
     }
 }
 
 fn signal(s: &Signal, unit: &str) -> String {
     match &s.source {
-        Source::Constant(v) => format!("{v} {unit}"),
+        Source::Constant(v) => format!("{} {unit}", significant(*v)),
         Source::Waveform(w) => {
             let (low, high) = w.range();
-            format!("waveform from {low} to {high} {unit}")
+            format!("waveform from {} to {} {unit}", significant(low), significant(high))
         }
     }
 }

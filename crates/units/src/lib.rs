@@ -9,5 +9,5 @@ mod table;
 pub use dimension::Dimension;
 pub use error::UnitError;
 pub use parse::{Quantity, parse, parse_as, parse_unit};
-pub use pretty::pretty;
+pub use pretty::{pretty, significant};
 pub use table::nearest;

@@ -38,8 +38,8 @@ pub fn pretty(value: f64, dimension: Dimension) -> String {
     if unit.is_empty() { digits } else { format!("{digits} {unit}") }
 }
 
-/// Four significant digits without trailing zeros.
-fn significant(number: f64) -> String {
+/// A number with four significant digits, without trailing zeros.
+pub fn significant(number: f64) -> String {
     if !number.is_finite() || number == 0.0 {
         return format!("{number}");
     }
