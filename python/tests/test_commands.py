@@ -120,7 +120,9 @@ def test_a_killed_run_can_be_read_and_gone_on_with(tmp_path: Path) -> None:
 def test_ctrl_c_leaves_a_checkpoint_behind(tmp_path: Path) -> None:
     out = tmp_path / "out"
     script = f"import vaso; vaso.run({str(PIPE)!r}, out={str(out)!r}, threads=1, **{LONG!r})"
-    process = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE)
+    # Where the tests run in the background of a script, Ctrl-C is ignored, and what they start ignores it, too.
+    heed = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
+    process = subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, preexec_fn=heed)
     wait_for(out / "fluid.vtkhdf", process)
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=60)
