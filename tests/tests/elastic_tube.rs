@@ -222,8 +222,8 @@ fn a_pulse_travels_along_an_elastic_tube() {
     let ring = 2e-3 / 5.48;
     assert!((top.0 / (7.3e-3 + ring) - 1.0).abs() < 0.03, "{} s", top.0);
     assert!((low.0 / (10.7e-3 + ring) - 1.0).abs() < 0.03, "{} s", low.0);
-    // Six per cent were asked for, 6.4 of the peak are missing and 12 of the low behind it: the ring rounds the pulse off, and the walls of the two
-    // are held differently. The curve is read off to 2 and 6 %.
+    // Six per cent were asked for, 6.4 of the peak are missing and 12 of the low behind it. The ring rounds the
+    // pulse off; how much of it that is has not been found out. The curve is read off to 2 and 6 %.
     assert!((top.1 / 0.142e-3 - 1.0).abs() < 0.08, "{} m", top.1);
     assert!((low.1 / -0.049e-3 - 1.0).abs() < 0.16, "{} m", low.1);
     assert_eq!(seen.escaped, 0);

@@ -106,7 +106,7 @@ impl<R: Real> Fluid<R> {
     /// `thinning` is the strain across the wall per strain of its area. Behind a curved surface particles at the depth `s` move by
     /// `1 - thinning s (k1 + k2)` of what the surface does. Where they keep their volume, at a thinning of 1, sums over the kernel fall short of
     /// what is swept by as much as they exceed it where all move alike, at 0 (`docs/theory/coupling.md`); a half is right. So a velocity counts by
-    /// `1 + (thinning - 1/2) s (k1 + k2)`, and the force on a particle by the same factor: the work stays that of the pressure.
+    /// `1 + (thinning - 1/2) s (k1 + k2)`, and so does the level of the pressure where a wall takes it from the sums, see `Contact`.
     ///
     /// # Panics
     /// If the lists of the view differ in length.
