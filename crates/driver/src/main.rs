@@ -18,7 +18,7 @@ use vaso_io::{StudyReport, Summary};
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    match execute(cli.command) {
+    match among_workers(threads(&cli.command), || execute(cli.command)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -39,7 +39,6 @@ fn execute(command: Command) -> Result<(), DriverError> {
             Ok(())
         }
         Command::Check { common, unit } => {
-            set_threads(common.threads)?;
             let checked = if is_surface(&common.case) {
                 check::surface(&common.case, length_unit(unit.as_deref())?)?
             } else {
@@ -56,7 +55,6 @@ fn execute(command: Command) -> Result<(), DriverError> {
         }
         Command::Particles(flags) => make_particles(&flags),
         Command::Run { common, force } => {
-            set_threads(common.threads)?;
             let case = Case::load(&common.case, &common.set)?;
             let plan = Plan::new(&case)?;
             let out = out_folder(&common, &case);
@@ -64,15 +62,13 @@ fn execute(command: Command) -> Result<(), DriverError> {
             let summary = run::run(&case, &plan, &out, force, &stop, &talk(&common))?;
             tell(&summary, &out, &talk(&common), common.json)
         }
-        Command::Resume { out, threads, quiet, json } => {
-            set_threads(threads)?;
+        Command::Resume { out, quiet, json, .. } => {
             let talk = Talk { quiet };
             let summary = resume::resume(&out, &stop_on_interrupt(), &talk)?;
             tell(&summary, &out, &talk, json)
         }
         Command::Study(flags) => {
             let common = &flags.common;
-            set_threads(common.threads)?;
             let case = Case::load(&common.case, &common.set)?;
             let out = out_folder(common, &case);
             let stop = stop_on_interrupt();
@@ -80,7 +76,6 @@ fn execute(command: Command) -> Result<(), DriverError> {
             if common.json { put(report.to_json() + "\n") } else { Ok(()) }
         }
         Command::Tune(flags) => {
-            set_threads(flags.common.threads)?;
             let case = Case::load(&flags.common.case, &flags.common.set)?;
             put(tune::tune(&case, &flags.request())?)
         }
@@ -132,7 +127,6 @@ fn length_unit(text: Option<&str>) -> Result<Option<LengthUnit>, DriverError> {
 
 fn make_particles(flags: &ParticlesFlags) -> Result<(), DriverError> {
     let common = &flags.common;
-    set_threads(common.threads)?;
     let settings = flags.settings();
     let case = if is_surface(&common.case) {
         if !settings.iter().any(|(key, _)| key == "particles.spacing") {
@@ -170,15 +164,40 @@ fn out_folder(common: &Common, case: &Case) -> PathBuf {
     common.out.clone().unwrap_or_else(|| case.scene.directory.join("out"))
 }
 
-fn set_threads(threads: Option<usize>) -> Result<(), DriverError> {
-    let Some(n) = threads else { return Ok(()) };
-    if n == 0 {
+/// Worker threads that a command asks for; `None` where it leaves that open.
+fn threads(command: &Command) -> Option<usize> {
+    match command {
+        Command::Check { common, .. } | Command::Run { common, .. } => common.threads,
+        Command::Particles(flags) => flags.common.threads,
+        Command::Study(flags) => flags.common.threads,
+        Command::Tune(flags) => flags.common.threads,
+        Command::Resume { threads, .. } => *threads,
+        Command::New(_)
+        | Command::Report { .. }
+        | Command::Schema
+        | Command::Completions { .. }
+        | Command::Man { .. } => None,
+    }
+}
+
+/// Stack of a worker: that of a main thread, whose work they do.
+const STACK: usize = 8 << 20;
+
+/// Does `work` on one of the worker threads. From outside of them each parallel loop, some fifty in a step, would wake a worker and put
+/// the caller to sleep.
+fn among_workers<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> Result<T, DriverError> + Send,
+) -> Result<T, DriverError> {
+    if threads == Some(0) {
         return Err(DriverError::input("--threads: 0 is no number of threads; give 1 or more"));
     }
     rayon::ThreadPoolBuilder::new()
-        .num_threads(n)
+        .num_threads(threads.unwrap_or(0))
+        .stack_size(STACK)
         .build_global()
-        .map_err(|e| DriverError::input(format!("--threads {n}: {e}")))
+        .map_err(|e| DriverError::input(format!("worker threads: {e}")))?;
+    rayon::scope(|_| work())
 }
 
 /// Flag raised by Ctrl-C and by termination; the run then ends after its step. A second one ends at once.
