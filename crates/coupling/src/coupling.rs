@@ -86,7 +86,10 @@ impl<W: MovingWall> Coupling<W> {
     pub fn take_pressure<R: Real>(&mut self, fluid: &mut Fluid<R>) {
         fluid.pressure_on_wall(&mut self.contact);
         let Self { contact, start, behind, bare, pressure_force, face_pressure, facets, wall, .. } = self;
-        pressure_force.iter_mut().zip(&*contact).for_each(|(force, contact)| *force = contact.force);
+        (&mut *pressure_force, &*contact)
+            .into_par_iter()
+            .with_min_len(4096)
+            .for_each(|(force, contact)| *force = contact.force);
         for &a in &*bare {
             pressure_force[a as usize] += 2.0 * contact[a as usize].level;
         }

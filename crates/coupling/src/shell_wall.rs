@@ -112,17 +112,22 @@ impl<R: Real> MovingWall for ShellWall<R> {
 
     fn load(&mut self, load: &WallLoad) -> Result<(), CouplingError> {
         self.columns.gather(load, &mut self.pressure_force, &mut self.viscous_force, &mut self.spread);
-        (&mut self.pressure_force, load.face_pressure, self.columns.feet())
-            .into_par_iter()
-            .with_min_len(1024)
-            .for_each(|(force, pressure, foot)| *force += *pressure * foot.area * foot.normal);
         let (state, thinning) = (&self.shell.state, thinning(&self.shell));
-        let forces = self.pressure_force.par_iter().zip(&self.viscous_force);
-        self.spread.par_iter_mut().zip(forces).enumerate().with_min_len(1024).for_each(
-            |(i, (spread, (p, v)))| {
-                *spread += 0.5 * state.thickness[i] * thinning * state.director[i].dot(*p + *v);
-            },
-        );
+        (
+            &mut self.pressure_force,
+            &mut self.spread,
+            &self.viscous_force,
+            load.face_pressure,
+            self.columns.feet(),
+        )
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(1024)
+            .for_each(|(i, (force, spread, viscous, pressure, foot))| {
+                *force += *pressure * foot.area * foot.normal;
+                let across = state.director[i].dot(*force + *viscous);
+                *spread += 0.5 * state.thickness[i] * thinning * across;
+            });
         let (pressure_force, viscous_force) = (&self.pressure_force[..], &self.viscous_force[..]);
         let load = WallLoad { pressure_force, viscous_force, face_pressure: &[] };
         Ok(self.shell.set_load_with_spread(&load, &self.spread)?)

@@ -15,6 +15,8 @@ use vaso_particles::WallView;
 pub(crate) struct Moving<R> {
     /// Place in the view of each wall particle within reach.
     pub(crate) source: Vec<u32>,
+    /// Where each particle of the view is among those within reach; [`OUT_OF_REACH`] for the others.
+    pub(crate) place: Vec<u32>,
     /// Where the particles of the view were when the distance to the wall was measured \[m\].
     origin: Vec<DVec3>,
     /// What the motion of each particle of the view counts for at the lumen surface, see [`Fluid::release_wall`].
@@ -35,7 +37,12 @@ pub(crate) struct Moving<R> {
     pub(crate) correction: Records<R>,
     /// Fluid as the wall sees it: its scalar is what the wall gets from it.
     pub(crate) seen: Records<R>,
+    /// Sums over the fluid around each wall particle within reach, of which its [`Contact`](crate::Contact) is made.
+    pub(crate) contact: Vec<[f64; moving::CONTACT_SUMS]>,
 }
+
+/// Place of a particle of the view that the fluid does not see.
+pub(crate) const OUT_OF_REACH: u32 = u32::MAX;
 
 /// Bounds of the factors of [`Fluid::release_wall`]: at creases the divergence of the normals is none of a surface.
 const LEVERS: (f64, f64) = (0.7, 1.3);
@@ -71,10 +78,12 @@ impl Wall for AtRest {
 impl<R> Moving<R> {
     /// Takes accelerations in the order of the view.
     fn accelerate(&mut self, acceleration: &[DVec3]) {
-        self.acceleration.clear();
-        if !acceleration.is_empty() {
-            self.acceleration.extend(self.source.iter().map(|&a| acceleration[a as usize]));
+        if acceleration.is_empty() {
+            return self.acceleration.clear();
         }
+        self.acceleration.resize(self.source.len(), DVec3::ZERO);
+        let columns = (&mut self.acceleration, &self.source).into_par_iter().with_min_len(1024);
+        columns.for_each(|(own, &a)| *own = acceleration[a as usize]);
     }
 }
 
@@ -118,6 +127,7 @@ impl<R: Real> Fluid<R> {
         );
         self.moving = Some(Box::new(Moving {
             source: Vec::new(),
+            place: Vec::new(),
             origin: view.position.to_vec(),
             lever: if thinning == 0.5 { vec![1.0; n] } else { self.levers(view, thinning) },
             acceleration: Vec::new(),
@@ -128,6 +138,7 @@ impl<R: Real> Fluid<R> {
             bend: Vec::new(),
             correction: Records::default(),
             seen: Records::default(),
+            contact: Vec::new(),
         }));
         self.take_wall(view, &[]);
     }
@@ -159,7 +170,10 @@ impl<R: Real> Fluid<R> {
         assert!(acceleration.is_empty() || acceleration.len() == moving.origin.len(), "an entry a particle");
         moving.source = self.wall.arrange(view, &self.frame);
         let support = self.frame.support();
-        let Moving { source, origin, displaced, .. } = &mut **moving;
+        let Moving { source, place, origin, displaced, .. } = &mut **moving;
+        place.clear();
+        place.resize(origin.len(), OUT_OF_REACH);
+        source.iter().enumerate().for_each(|(k, &a)| place[a as usize] = k as u32);
         displaced.resize(source.len());
         let records = self.wall.kinematic.as_slice();
         displaced.fill(|k| {
@@ -232,9 +246,7 @@ impl<R: Real> Fluid<R> {
         let n = self.state.len();
         let gradient = self.kernel.gradient_scale();
         let Some(moving) = &mut self.moving else { return };
-        moving.velocity.clear();
         moving.velocity.resize(n, DVec3::ZERO);
-        moving.flux.clear();
         moving.flux.resize(n, 0.0);
         let gather = Gather {
             frame: &self.frame,
@@ -251,15 +263,17 @@ impl<R: Real> Fluid<R> {
         )
             .into_par_iter()
             .enumerate()
-            .filter(|(_, (_, _, row))| !row.has_no_pairs())
             .for_each(|(c, (velocity, flux, row))| {
+                if row.has_no_pairs() {
+                    velocity.fill(DVec3::ZERO);
+                    flux.fill(0.0);
+                    return;
+                }
                 let mut sums = [[0.0; moving::VELOCITY_SUMS]; CHUNK];
                 sweep(isa, &WallVelocity, &gather, numbered(row, c), Store::None, &mut sums);
                 for (k, [divergence, weight, x, y, z]) in sums.into_iter().enumerate().take(velocity.len()) {
                     flux[k] = gradient * divergence;
-                    if weight > 0.0 {
-                        velocity[k] = DVec3::new(x, y, z) / weight;
-                    }
+                    velocity[k] = if weight > 0.0 { DVec3::new(x, y, z) / weight } else { DVec3::ZERO };
                 }
             });
     }
@@ -306,7 +320,8 @@ impl<R: Real> Fluid<R> {
             + m.bend.capacity();
         size_of::<DVec3>() * vectors
             + 8 * (m.flux.capacity() + m.lever.capacity())
-            + 4 * m.source.capacity()
+            + 4 * (m.source.capacity() + m.place.capacity())
+            + size_of::<[f64; moving::CONTACT_SUMS]>() * m.contact.capacity()
             + m.displaced.bytes()
             + m.correction.bytes()
             + m.seen.bytes()

@@ -1,8 +1,8 @@
 //! Forces on a wall that moves: those on the fluid, pair by pair, with the other sign.
 
 use crate::fluid::{Fluid, numbered};
-use crate::law::moving::{BendOnWall, CONTACT_SUMS, DragOnWall, LeanOnWall, PressureOnWall};
-use crate::moving::{Moving, closing_pressure};
+use crate::law::moving::{BendOnWall, DragOnWall, LeanOnWall, PressureOnWall};
+use crate::moving::{Moving, OUT_OF_REACH, closing_pressure};
 use crate::rheology::shear_rate;
 use crate::viscosity::scaled_strain;
 use glam::DVec3;
@@ -53,14 +53,21 @@ impl<R: Real> Fluid<R> {
             record
         });
         let gradient = self.kernel.gradient_scale();
-        let sums = self.gather_on_wall::<CONTACT_SUMS>(&PressureOnWall, &self.wall.dynamic, &moving);
-        contact.fill(Contact::default());
+        let mut sums = std::mem::take(&mut moving.contact);
+        self.gather_on_wall(&PressureOnWall, &self.wall.dynamic, &moving, &mut sums);
         let records = self.wall.dynamic.as_slice();
-        for ((&a, record), sum) in moving.source.iter().zip(records).zip(&sums) {
-            let of = |k: usize| gradient * record[3].widen() * DVec3::new(sum[k], sum[k + 1], sum[k + 2]);
-            let lever = moving.lever[a as usize];
-            contact[a as usize] = Contact { force: of(0), area: lever * of(3), level: lever * of(6) };
-        }
+        (contact, &moving.place, &moving.lever).into_par_iter().with_min_len(1024).for_each(
+            |(contact, &place, lever)| {
+                *contact = Contact::default();
+                if place != OUT_OF_REACH {
+                    let (record, sum) = (&records[place as usize], &sums[place as usize]);
+                    let scale = gradient * record[3].widen();
+                    let of = |k: usize| scale * DVec3::new(sum[k], sum[k + 1], sum[k + 2]);
+                    *contact = Contact { force: of(0), area: *lever * of(3), level: *lever * of(6) };
+                }
+            },
+        );
+        moving.contact = sums;
         self.moving = Some(moving);
     }
 
@@ -106,17 +113,20 @@ impl<R: Real> Fluid<R> {
     }
 
     fn vectors_on_wall(&self, law: &impl PairLaw<R, 3>, own: &Records<R>, moving: &Moving<R>) -> Vec<DVec3> {
-        self.gather_on_wall::<3>(law, own, moving).into_iter().map(DVec3::from_array).collect()
+        let mut sums = Vec::new();
+        self.gather_on_wall::<3>(law, own, moving, &mut sums);
+        sums.into_iter().map(DVec3::from_array).collect()
     }
 
-    /// Sums of a law over the rows of the wall, among the fluid as it is seen.
+    /// Writes the sums of a law over the rows of the wall, among the fluid as it is seen.
     fn gather_on_wall<const N: usize>(
         &self,
         law: &impl PairLaw<R, N>,
         own: &Records<R>,
         moving: &Moving<R>,
-    ) -> Vec<[f64; N]> {
-        let mut result = vec![[0.0; N]; self.wall.len()];
+        result: &mut Vec<[f64; N]>,
+    ) {
+        result.resize(self.wall.len(), [0.0; N]);
         let isa = self.isa;
         let gather = Gather {
             frame: &self.frame,
@@ -125,17 +135,16 @@ impl<R: Real> Fluid<R> {
             own_second: None,
             other_second: Some(&moving.correction),
         };
-        result
-            .par_chunks_mut(CHUNK)
-            .zip(self.wall.wall_rows.chunks())
-            .enumerate()
-            .filter(|(_, (_, row))| !row.has_no_pairs())
-            .for_each(|(c, (result, row))| {
+        result.par_chunks_mut(CHUNK).zip(self.wall.wall_rows.chunks()).enumerate().for_each(
+            |(c, (result, row))| {
+                if row.has_no_pairs() {
+                    return result.fill([0.0; N]);
+                }
                 let mut sums = [[0.0; N]; CHUNK];
                 sweep(isa, law, &gather, numbered(row, c), Store::None, &mut sums);
                 result.copy_from_slice(&sums[..result.len()]);
-            });
-        result
+            },
+        );
     }
 }
 

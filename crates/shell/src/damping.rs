@@ -2,7 +2,6 @@
 
 use crate::material::{Material, SHEAR_CORRECTION};
 use crate::numbers::Numbers;
-use crate::section::Strain;
 
 /// Kelvin-Voigt damping of membrane and bending by `beta rho c h / 2`, of shear by `beta / 2` of its critical damping.
 pub(crate) struct Damper {
@@ -20,12 +19,12 @@ impl Damper {
         Self { beta, density, shear: material.shear(), viscosity }
     }
 
-    #[inline(always)]
-    pub(crate) fn resultants(&self, thickness: f64, rotary: f64, rate: &Strain) -> [f64; 8] {
+    /// What strain rates of membrane, bending and shear are multiplied by \[N s/m, N m s, N s/m\].
+    pub(crate) fn factors(&self, thickness: f64, rotary: f64) -> [f64; 3] {
         let membrane = self.viscosity * thickness;
         let bending = membrane * thickness * thickness / 12.0;
         let stiffness = SHEAR_CORRECTION * self.shear * thickness;
         let shear = 0.5 * self.beta * (self.density * rotary * stiffness).sqrt();
-        std::array::from_fn(|k| rate[k] * [membrane, bending, shear][k / 3])
+        [membrane, bending, shear]
     }
 }

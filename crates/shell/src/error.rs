@@ -52,6 +52,21 @@ pub enum ShellError {
         /// Smallest eigenvalue of the moment matrix in the tangent plane, 1 in the bulk.
         eigenvalue: f64,
     },
+    /// The faces of the wall overlap in the reference configuration.
+    #[error(
+        "shell particle {particle} at {position} m is bent so much that a wall of {thickness:.2e} m folds onto itself (volume of a \
+         layer at its face over that at its middle {volume:.3}); make the wall thinner there"
+    )]
+    Folded {
+        /// Number of the particle as it was given.
+        particle: u64,
+        /// Its position \[m\].
+        position: DVec3,
+        /// Its thickness \[m\].
+        thickness: f64,
+        /// Volume of a layer at the worse of its faces over that at its middle, not above zero.
+        volume: f64,
+    },
     /// The shell is turned inside out.
     #[error(
         "shell particle {particle} at {position} m is turned inside out (determinant of its deformation gradient \

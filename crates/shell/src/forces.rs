@@ -2,30 +2,36 @@
 
 use crate::damping::Damper;
 use crate::error::ShellError;
+use crate::lanes::{self, Section};
 use crate::law::{DIRECTOR_UNIT, DISPLACEMENT_UNIT, Divergence, Gradient, Hourglass};
 use crate::material::{Material, Model};
 use crate::numbers::Numbers;
 use crate::reference::Reference;
-use crate::section::{Layer, Motion, Present, Resultants, Strain, linear, parts, strain};
+use crate::section::{Layer, Motion};
+use crate::spread::Stretch;
 use crate::state::ShellState;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, FIELDS, Gather, Isa, Real, Records, Store, sweep, sweep_links};
+use vaso_kernels::{
+    BLOCK, BlockColumn, CHUNK, FIELDS, Gather, Isa, Real, Records, Store, sweep, sweep_links, sweep_points,
+};
 
 /// Working memory of a shell.
 pub(crate) struct Forces<R> {
     pub(crate) material: Material,
     pub(crate) reference: Reference<R>,
-    /// Points through the thickness, particle by particle; none for resultants.
-    layers: Vec<Layer>,
-    n_layers: usize,
+    /// What never changes of the sections, block by block.
+    fixed: Vec<BlockColumn>,
+    n_fixed: usize,
     pub(crate) motion: Vec<Motion>,
     /// Displacement gradient of the mid-surface, `F - I`, the director its third column.
     pub(crate) gradient: Vec<DMat3>,
-    /// Strain of the step before, for its rate; empty without damping.
-    strain: Vec<Strain>,
+    /// Strain of the step before, for its rate, block by block; empty without damping.
+    strain: Vec<[BlockColumn; 8]>,
+    /// Areas where the shell stands; empty unless they have been asked for since it came there.
+    pub(crate) stretch: Vec<Stretch>,
     /// Force \[Pa\] and couple \[N/m\] by area that the particle gives itself.
-    own: Vec<[DVec3; 2]>,
+    pub(crate) own: Vec<[DVec3; 2]>,
     /// Displacement and change of the director; read for the gradient.
     pub(crate) kinematic: Records<R>,
     /// Reference position, displacement, and the last entry of the matrix in `matrix`.
@@ -37,11 +43,9 @@ pub(crate) struct Forces<R> {
     pub(crate) isa: Isa,
 }
 
-/// Matrix of sums taken row by row, times `scale`.
-#[inline(always)]
-fn from_rows(m: &[f64], scale: f64) -> DMat3 {
-    let row = |k: usize| DVec3::new(m[k], m[k + 3], m[k + 6]);
-    scale * DMat3::from_cols(row(0), row(1), row(2))
+/// Points through the thickness; none for resultants.
+fn points(material: &Material) -> usize {
+    if let Model::NeoHookean { points } = material.model() { points } else { 0 }
 }
 
 impl<R: Real> Forces<R> {
@@ -58,16 +62,24 @@ impl<R: Real> Forces<R> {
             records.resize(n);
             records
         };
-        let n_layers = if let Model::NeoHookean { points } = material.model() { points } else { 0 };
-        let with_layers = reference.base.iter().zip(thickness).take(if n_layers > 0 { n } else { 0 });
-        let layers = with_layers.flat_map(|(base, t)| Layer::of(base, *t, n_layers)).collect();
+        let n_fixed = lanes::fixed_columns(points(&material));
+        let mut fixed = vec![[0.0; BLOCK]; n.div_ceil(BLOCK) * n_fixed];
+        // Its factors are those of a damping of one, which may change.
+        let damper = Damper::new(&material, &Numbers { damping: 1.0, ..*numbers });
+        for (i, base) in reference.base.iter().enumerate() {
+            let layers: Vec<Layer> = Layer::of(base, thickness[i], points(&material)).collect();
+            let block = &mut fixed[i / BLOCK * n_fixed..][..n_fixed];
+            let viscous = damper.factors(thickness[i], numbers.rotary(thickness[i]));
+            lanes::fix(block, i % BLOCK, base, thickness[i], viscous, &layers);
+        }
         Self {
             material,
-            layers,
-            n_layers,
+            fixed,
+            n_fixed,
             motion: vec![Motion::default(); n],
             gradient: vec![DMat3::ZERO; n],
-            strain: vec![[0.0; 8]; if numbers.damping > 0.0 { n } else { 0 }],
+            strain: if numbers.damping > 0.0 { vec![lanes::blank(); n.div_ceil(BLOCK)] } else { Vec::new() },
+            stretch: Vec::new(),
             own: vec![[DVec3::ZERO; 2]; n],
             kinematic: sized(),
             jump: reference.blank.clone(),
@@ -79,8 +91,9 @@ impl<R: Real> Forces<R> {
         }
     }
 
-    pub(crate) fn layers(&self, i: usize) -> &[Layer] {
-        &self.layers[i * self.n_layers..(i + 1) * self.n_layers]
+    /// Layers of particle `i` of a `thickness` \[m\]; none for resultants.
+    pub(crate) fn layers(&self, i: usize, thickness: f64) -> Vec<Layer> {
+        Layer::of(&self.reference.base[i], thickness, points(&self.material)).collect()
     }
 
     /// Writes the accelerations of positions and directors; returns the power \[W\] that damping took in the step `dt` \[s\] that
@@ -91,6 +104,7 @@ impl<R: Real> Forces<R> {
         numbers: &Numbers,
         dt: f64,
     ) -> Result<f64, ShellError> {
+        self.stretch.clear();
         self.pack(state);
         self.differentiate(state);
         let power = self.resultants(state, numbers, dt)?;
@@ -173,9 +187,11 @@ impl<R: Real> Forces<R> {
             other_second: Some(&self.matrix),
         };
         let (motion, gradient) = (&self.motion, &self.gradient);
-        let (layers, n_layers) = (&self.layers, self.n_layers);
-        let damper = Damper::new(&material, numbers);
-        let mut strains: Vec<&mut [Strain]> = self.strain.chunks_mut(CHUNK).collect();
+        let (fixed, n_fixed) = (&self.fixed, self.n_fixed);
+        let damping = if self.strain.is_empty() { 0.0 } else { numbers.damping };
+        let section = Section::new(material, damping, dt);
+        let per_chunk = CHUNK / BLOCK;
+        let mut strains: Vec<&mut [[BlockColumn; 8]]> = self.strain.chunks_mut(per_chunk).collect();
         strains.resize_with(reference.rows.chunks().len(), Default::default);
         let chunks: Vec<Result<f64, usize>> = self
             .own
@@ -191,41 +207,41 @@ impl<R: Real> Forces<R> {
                     let stored = Store::Read(&reference.hourglass.chunks()[c]);
                     sweep(isa, &Hourglass, &gather, (row, c * CHUNK), stored, &mut sums);
                 }
+                let (mut read, mut found) =
+                    (lanes::blank::<{ lanes::OWN }>(), lanes::blank::<{ lanes::OUT }>());
                 let mut power = 0.0;
-                for (k, own) in own.iter_mut().enumerate() {
-                    let i = c * CHUNK + k;
-                    let determinant = (DMat3::IDENTITY + gradient[i]).determinant();
-                    if determinant <= 0.0 || determinant.is_nan() {
-                        return Err(i);
-                    }
-                    let (base, thickness, director) =
-                        (&reference.base[i], state.thickness[i], state.director[i]);
-                    let present = Present::new(base, &motion[i], director);
-                    let mut r = Resultants::default();
-                    let e = strain(base, &motion[i], director);
-                    let mut linear_part = [0.0; 8];
-                    if n_layers > 0 {
-                        r.add_layers(&material, &layers[i * n_layers..(i + 1) * n_layers], &present);
-                    } else {
-                        linear_part = linear(&material, thickness, &e);
-                    }
-                    if let Some(before) = strains.get_mut(k) {
-                        if dt > 0.0 {
-                            let rate = std::array::from_fn(|k| (e[k] - before[k]) / dt);
-                            let viscous = damper.resultants(thickness, numbers.rotary(thickness), &rate);
-                            power += state.area[i] * parts(&viscous, &rate).iter().sum::<f64>();
-                            linear_part = std::array::from_fn(|k| linear_part[k] + viscous[k]);
+                for b in 0..own.len().div_ceil(BLOCK) {
+                    let (first, n) = (b * BLOCK, BLOCK.min(own.len() - b * BLOCK));
+                    for k in 0..n {
+                        let i = c * CHUNK + first + k;
+                        let determinant = (DMat3::IDENTITY + gradient[i]).determinant();
+                        if determinant <= 0.0 || determinant.is_nan() {
+                            return Err(i);
                         }
-                        *before = e;
+                        // Lengths in supports: their product brings one support back, the weight the rest.
+                        let twist = std::array::from_fn(|a| -0.5 * modulus * sums[first + k][3 + a]);
+                        lanes::show(&mut read, k, &motion[i], state.director[i], twist);
                     }
-                    r.add(&linear_part, &present);
-                    // Lengths in supports: their product brings one support back, the weight the rest.
-                    r.add_gradient(&from_rows(&sums[k][3..], -0.5 * modulus), base);
-                    let direct = (-modulus / support) * DVec3::new(sums[k][0], sums[k][1], sums[k][2]);
-                    let [w0, w1] = reference.own[i];
-                    *own = [w0 * r.t[0] + w1 * r.t[1] + direct, w0 * r.m[0] + w1 * r.m[1] - r.q];
-                    force[k] = packed(&r.t);
-                    moment[k] = packed(&r.m);
+                    let strain = strains.get_mut(b).filter(|_| damping > 0.0);
+                    if let Some(strain) = &strain {
+                        lanes::before(&mut read).copy_from_slice(&strain[..]);
+                    }
+                    let block = &fixed[(c * per_chunk + b) * n_fixed..][..n_fixed];
+                    sweep_points(isa, &section, n, block, &read, &mut found);
+                    if let Some(strain) = strain {
+                        strain.copy_from_slice(lanes::strains(&found));
+                    }
+                    for k in 0..n {
+                        let (i, at) = (c * CHUNK + first + k, first + k);
+                        let (t, m, q, damped) = lanes::found(&found, k);
+                        power += state.area[i] * damped;
+                        let sums = &sums[at];
+                        let direct = (-modulus / support) * DVec3::new(sums[0], sums[1], sums[2]);
+                        let [w0, w1] = reference.own[i];
+                        own[at] = [w0 * t[0] + w1 * t[1] + direct, w0 * m[0] + w1 * m[1] - q];
+                        force[at] = packed(&t);
+                        moment[at] = packed(&m);
+                    }
                 }
                 Ok(power)
             })
@@ -271,10 +287,10 @@ impl<R: Real> Forces<R> {
         let records = [&self.kinematic, &self.jump, &self.matrix, &self.force, &self.moment];
         self.reference.bytes()
             + records.iter().map(|r| r.bytes()).sum::<usize>()
-            + size_of::<Layer>() * self.layers.capacity()
+            + size_of::<BlockColumn>() * (self.fixed.capacity() + 8 * self.strain.capacity())
             + size_of::<Motion>() * self.motion.capacity()
             + size_of::<DMat3>() * self.gradient.capacity()
-            + size_of::<Strain>() * self.strain.capacity()
+            + size_of::<Stretch>() * self.stretch.capacity()
             + size_of::<[DVec3; 2]>() * self.own.capacity()
     }
 }

@@ -39,6 +39,33 @@ impl<R: Real> LinkLaw<R, 2, 12> for Gradient {
     }
 }
 
+/// The first half of [`Gradient`]: what the last three fields of the records hold has no part in it.
+pub struct Slope;
+
+impl<R: Real> LinkLaw<R, 2, 6> for Slope {
+    type Constants<L: Lanes<Elem = R>> = L;
+
+    fn constants<L: Lanes<Elem = R>>(&self) -> L {
+        L::constant(DISPLACEMENT_UNIT)
+    }
+
+    #[inline(always)]
+    fn link<L: Lanes<Elem = R>>(
+        unit: &L,
+        own: &[L; FIELDS],
+        other: &[L; FIELDS],
+        _: &[L; FIELDS],
+        w: &[L; 2],
+        sums: &mut [L; 6],
+    ) {
+        for k in 0..3 {
+            let difference = own[k].delta(other[k], *unit);
+            sums[2 * k] = difference.fma(w[0], sums[2 * k]);
+            sums[2 * k + 1] = difference.fma(w[1], sums[2 * k + 1]);
+        }
+    }
+}
+
 /// Sums `[0..3]` of `T_j w` and `[3..6]` of `M_j w` with the weights that particle `j` gives this one in its gradient; the first
 /// record holds the two columns of `T` \[N/m\], the second those of `M` \[N\].
 pub struct Divergence;
@@ -61,6 +88,29 @@ impl<R: Real> LinkLaw<R, 2, 6> for Divergence {
         for k in 0..3 {
             sums[k] = other[k].fma(w[0], other[3 + k].fma(w[1], sums[k]));
             sums[3 + k] = second[k].fma(w[0], second[3 + k].fma(w[1], sums[3 + k]));
+        }
+    }
+}
+
+/// The first half of [`Divergence`].
+pub struct Tension;
+
+impl<R: Real> LinkLaw<R, 2, 3> for Tension {
+    type Constants<L: Lanes<Elem = R>> = ();
+
+    fn constants<L: Lanes<Elem = R>>(&self) {}
+
+    #[inline(always)]
+    fn link<L: Lanes<Elem = R>>(
+        (): &(),
+        _: &[L; FIELDS],
+        other: &[L; FIELDS],
+        _: &[L; FIELDS],
+        w: &[L; 2],
+        sums: &mut [L; 3],
+    ) {
+        for k in 0..3 {
+            sums[k] = other[k].fma(w[0], other[3 + k].fma(w[1], sums[k]));
         }
     }
 }

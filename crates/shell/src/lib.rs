@@ -5,6 +5,7 @@ mod energy;
 pub mod error;
 mod forces;
 mod frequency;
+mod lanes;
 pub mod law;
 mod load;
 mod loading;

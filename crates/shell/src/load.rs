@@ -4,36 +4,32 @@ use crate::forces::{Forces, across};
 use crate::state::ShellState;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::Real;
+use vaso_kernels::{CHUNK, Real};
 
 /// Pressure on particles, which follows their area.
 pub(crate) struct Pressure {
-    /// Places of the particles in the state.
-    pub(crate) at: Vec<u32>,
-    /// Loaded areas in the reference configuration \[m^2\].
+    /// Loaded area of each particle in the reference configuration \[m^2\], 0 where there is no load.
     pub(crate) area: Vec<f64>,
     /// Pressure \[Pa\], towards the side of the director.
     pub(crate) value: f64,
 }
 
-/// Spring and dashpot between one particle and what surrounds the vessel.
+/// Springs and dashpots between particles and what surrounds the vessel; empty where there are none.
+#[derive(Default)]
 pub(crate) struct Tissue {
-    /// Place in the state.
-    pub(crate) at: u32,
-    /// Stiffness \[N/m\].
-    pub(crate) stiffness: f64,
-    /// Damping \[N s/m\].
-    pub(crate) damping: f64,
+    /// Stiffness of each particle's \[N/m\].
+    pub(crate) stiffness: Vec<f64>,
+    /// Damping of each particle's \[N s/m\].
+    pub(crate) damping: Vec<f64>,
 }
 
-/// Particle that answers the fluid implicitly.
+/// Particles that answer the fluid implicitly; empty where none does.
+#[derive(Default)]
 pub(crate) struct Impedance {
-    /// Place in the state.
-    pub(crate) at: u32,
     /// Share of the impedance times area that is taken implicitly \[N s/m\].
-    pub(crate) coefficient: f64,
+    pub(crate) coefficient: Vec<f64>,
     /// Velocity at the start of the step of the fluid \[m/s\].
-    pub(crate) start: DVec3,
+    start: Vec<DVec3>,
 }
 
 /// All loads of a shell.
@@ -48,8 +44,8 @@ pub(crate) struct Loads {
     /// Dead moments \[N m\] on places in the state.
     pub(crate) moments: Vec<(u32, DVec3)>,
     pub(crate) pressures: Vec<Pressure>,
-    pub(crate) tissue: Vec<Tissue>,
-    pub(crate) impedance: Vec<Impedance>,
+    pub(crate) tissue: Tissue,
+    pub(crate) impedance: Impedance,
     /// Acceleration by all of them \[m/s^2\], empty where there are none.
     pub(crate) acceleration: Vec<DVec3>,
     /// Acceleration of the directors by moments \[1/s^2\], empty where there are none.
@@ -59,7 +55,7 @@ pub(crate) struct Loads {
 impl Loads {
     /// Whether the loads change while the shell moves.
     pub(crate) fn follow(&self) -> bool {
-        !self.pressures.is_empty() || !self.tissue.is_empty() || !self.moments.is_empty()
+        !self.pressures.is_empty() || !self.tissue.stiffness.is_empty() || !self.moments.is_empty()
     }
 
     fn act(&self) -> bool {
@@ -73,23 +69,22 @@ impl Loads {
             self.turning.clear();
             return;
         }
-        let (gravity, fluid, mass) = (self.gravity, &self.fluid, &state.mass);
-        self.acceleration.resize(state.len(), DVec3::ZERO);
-        self.acceleration.par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, a)| {
-            *a = gravity + fluid.get(i).map_or(DVec3::ZERO, |force| *force / mass[i]);
-        });
-        for &(i, force) in &self.forces {
-            self.acceleration[i as usize] += force / mass[i as usize];
-        }
-        for pressure in &self.pressures {
-            for (&i, &area) in pressure.at.iter().zip(&pressure.area) {
-                let i = i as usize;
-                self.acceleration[i] += (pressure.value * area / mass[i]) * forces.area_vector(i);
+        let Self { gravity, fluid, forces: dead, pressures, tissue, acceleration, .. } = self;
+        let (mass, displacement, springs) = (&state.mass, &state.displacement, &tissue.stiffness);
+        acceleration.resize(state.len(), DVec3::ZERO);
+        acceleration.par_iter_mut().enumerate().with_min_len(1024).for_each(|(i, a)| {
+            let mut force = fluid.get(i).copied().unwrap_or_default();
+            if !pressures.is_empty() {
+                let by_area: f64 = pressures.iter().map(|p| p.value * p.area[i]).sum();
+                force += by_area * forces.area_vector(i);
             }
-        }
-        for tissue in &self.tissue {
-            let i = tissue.at as usize;
-            self.acceleration[i] -= (tissue.stiffness / mass[i]) * state.displacement[i];
+            if let Some(stiffness) = springs.get(i) {
+                force -= *stiffness * displacement[i];
+            }
+            *a = *gravity + force / mass[i];
+        });
+        for &(i, force) in &*dead {
+            acceleration[i as usize] += force / mass[i as usize];
         }
         self.turning.clear();
         if !self.moments.is_empty() {
@@ -116,22 +111,30 @@ impl Loads {
 
     /// Lets the dashpots slow the shell over `dt` \[s\], implicitly; returns the energy taken \[J\].
     pub(crate) fn damp(&self, state: &mut ShellState, dt: f64) -> f64 {
-        let mut taken = 0.0;
-        for tissue in self.tissue.iter().filter(|t| t.damping > 0.0) {
-            let i = tissue.at as usize;
-            let mass = state.mass[i];
-            let before = state.velocity[i];
-            let after = before / (1.0 + dt * tissue.damping / mass);
-            taken += 0.5 * mass * (before.length_squared() - after.length_squared());
-            state.velocity[i] = after;
+        let damping = &self.tissue.damping;
+        if damping.is_empty() {
+            return 0.0;
         }
-        taken
+        let taken: Vec<f64> = (state.velocity.par_chunks_mut(CHUNK), state.mass.par_chunks(CHUNK))
+            .into_par_iter()
+            .zip(damping.par_chunks(CHUNK))
+            .map(|((velocity, mass), damping)| {
+                let of = |((v, mass), damping): ((&mut DVec3, &f64), &f64)| {
+                    let before = *v;
+                    *v = before / (1.0 + dt * damping / mass);
+                    0.5 * mass * (before.length_squared() - v.length_squared())
+                };
+                velocity.iter_mut().zip(mass).zip(damping).map(of).sum()
+            })
+            .collect();
+        taken.iter().sum()
     }
 
     /// Notes the velocities that the fluid has answered with its force.
     pub(crate) fn note_start(&mut self, state: &ShellState) {
-        for part in &mut self.impedance {
-            part.start = state.velocity[part.at as usize];
+        if !self.impedance.coefficient.is_empty() {
+            self.impedance.start.clear();
+            self.impedance.start.extend_from_slice(&state.velocity);
         }
     }
 
@@ -139,17 +142,31 @@ impl Loads {
     ///
     /// In the plane, too: the pressure of an uneven fluid pushes along the wall as well, and a thin wall has as little mass for that.
     pub(crate) fn resist(&self, state: &mut ShellState, dt: f64) {
-        for part in &self.impedance {
-            let i = part.at as usize;
-            let weight = dt * part.coefficient / state.mass[i];
-            let lag = part.start - state.velocity[i];
-            state.velocity[i] += weight / (1.0 + weight) * lag;
-        }
+        let Impedance { coefficient, start } = &self.impedance;
+        let columns = (&mut state.velocity[..], &state.mass[..], start, coefficient);
+        columns.into_par_iter().with_min_len(1024).for_each(|(v, mass, start, coefficient)| {
+            let weight = dt * coefficient / mass;
+            *v += weight / (1.0 + weight) * (*start - *v);
+        });
     }
 
     /// Largest stiffness over mass of a spring \[1/s^2\].
     pub(crate) fn largest_rate(&self, state: &ShellState) -> f64 {
-        self.tissue.iter().map(|t| t.stiffness / state.mass[t.at as usize]).fold(0.0, f64::max)
+        let columns = self.tissue.stiffness.iter().zip(&state.mass[..]);
+        columns.map(|(stiffness, mass)| stiffness / mass).fold(0.0, f64::max)
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        let vectors = self.fluid.capacity()
+            + self.acceleration.capacity()
+            + self.turning.capacity()
+            + self.impedance.start.capacity();
+        let numbers = self.pressures.iter().map(|p| p.area.capacity()).sum::<usize>()
+            + self.tissue.stiffness.capacity()
+            + self.tissue.damping.capacity()
+            + self.impedance.coefficient.capacity();
+        size_of::<DVec3>() * vectors + size_of::<f64>() * numbers
     }
 }
 

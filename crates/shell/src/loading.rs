@@ -1,9 +1,10 @@
 //! How loads are put on a shell.
 
 use crate::error::{ShellError, within};
-use crate::load::{Impedance, Pressure, Tissue};
+use crate::load::Pressure;
 use crate::shell::Shell;
 use glam::DVec3;
+use rayon::prelude::*;
 use vaso_kernels::Real;
 use vaso_particles::WallLoad;
 
@@ -17,12 +18,18 @@ impl<R: Real> Shell<R> {
         within("stiffness", stiffness, stiffness >= 0.0, "0 Pa/m or more")?;
         within("damping", damping, damping >= 0.0, "0 Pa s/m or more")?;
         let at = self.places("tissue", particles)?;
-        let area = &self.state.area;
-        self.loads.tissue.extend(at.into_iter().map(|at| Tissue {
-            at,
-            stiffness: stiffness * area[at as usize],
-            damping: damping * area[at as usize],
-        }));
+        let (area, tissue) = (&self.state.area, &mut self.loads.tissue);
+        tissue.stiffness.resize(area.len(), 0.0);
+        // Springs alone have no dashpots to ask every sub-step.
+        if damping > 0.0 {
+            tissue.damping.resize(area.len(), 0.0);
+        }
+        for i in at.into_iter().map(|at| at as usize) {
+            tissue.stiffness[i] += stiffness * area[i];
+            if damping > 0.0 {
+                tissue.damping[i] += damping * area[i];
+            }
+        }
         self.ready = false;
         Ok(())
     }
@@ -45,7 +52,9 @@ impl<R: Real> Shell<R> {
         if areas.len() != at.len() {
             return Err(ShellError::Count { what: "areas", given: areas.len(), expected: at.len() });
         }
-        self.loads.pressures.push(Pressure { at, area: areas.to_vec(), value: pressure });
+        let mut area = vec![0.0; self.state.len()];
+        at.iter().zip(areas).for_each(|(&at, loaded)| area[at as usize] += loaded);
+        self.loads.pressures.push(Pressure { area, value: pressure });
         self.ready = false;
         Ok(self.loads.pressures.len() - 1)
     }
@@ -99,12 +108,9 @@ impl<R: Real> Shell<R> {
         within("impedance", impedance, impedance >= 0.0, "0 Pa s/m or more")?;
         within("share", share, (0.5..=1.0).contains(&share), "0.5 to 1")?;
         let at = self.places("impedance", particles)?;
-        let area = &self.state.area;
-        self.loads.impedance.extend(at.into_iter().map(|at| Impedance {
-            at,
-            coefficient: share * impedance * area[at as usize],
-            start: DVec3::ZERO,
-        }));
+        let (area, coefficient) = (&self.state.area, &mut self.loads.impedance.coefficient);
+        coefficient.resize(area.len(), 0.0);
+        at.into_iter().for_each(|at| coefficient[at as usize] += share * impedance * area[at as usize]);
         Ok(())
     }
 
@@ -119,6 +125,13 @@ impl<R: Real> Shell<R> {
     /// # Errors
     /// [`ShellError::Count`] unless there is one force a particle.
     pub fn set_load(&mut self, load: &WallLoad) -> Result<(), ShellError> {
+        self.take_load(load)?;
+        self.loads.update(&self.state, &self.forces);
+        Ok(())
+    }
+
+    /// Takes the forces of the fluid; accelerations do not follow yet.
+    pub(crate) fn take_load(&mut self, load: &WallLoad) -> Result<(), ShellError> {
         let expected = self.state.len();
         for (what, given) in
             [("pressure_force", load.pressure_force.len()), ("viscous_force", load.viscous_force.len())]
@@ -127,10 +140,11 @@ impl<R: Real> Shell<R> {
                 return Err(ShellError::Count { what, given, expected });
             }
         }
-        let both = load.pressure_force.iter().zip(load.viscous_force);
-        self.loads.fluid.clear();
-        self.loads.fluid.extend(both.map(|(p, v)| *p + *v));
-        self.loads.update(&self.state, &self.forces);
+        self.loads.fluid.resize(expected, DVec3::ZERO);
+        (&mut self.loads.fluid, load.pressure_force, load.viscous_force)
+            .into_par_iter()
+            .with_min_len(1024)
+            .for_each(|(force, p, v)| *force = *p + *v);
         Ok(())
     }
 }

@@ -27,7 +27,8 @@ impl<R: Real> Forces<R> {
                     let i = c * CHUNK + k;
                     let (base, motion) = (&self.reference.base[i], &self.motion[i]);
                     let (thickness, director) = (state.thickness[i], state.director[i]);
-                    let parts = energy(&self.material, thickness, base, motion, director, self.layers(i));
+                    let layers = self.layers(i, thickness);
+                    let parts = energy(&self.material, thickness, base, motion, director, &layers);
                     for (total, part) in total.iter_mut().zip(parts) {
                         *total += state.area[i] * part;
                     }
@@ -45,7 +46,8 @@ impl<R: Real> Forces<R> {
             let f = DMat3::IDENTITY + self.gradient[i];
             let [x, y] = self.reference.base[i].tangent.map(|t| f * t);
             let (mean, half) = (0.5 * (x.dot(x) + y.dot(y)), 0.5 * (x.dot(x) - y.dot(y)));
-            let radius = half.hypot(x.dot(y));
+            // Not `hypot`, which guards against overflow at a price.
+            let radius = (half * half + x.dot(y) * x.dot(y)).sqrt();
             match self.material.model() {
                 // d^2 psi / d lambda^2 of E'/8 (lambda^2 - 1)^2, with the strain across taken as equal.
                 Model::Resultant => 1.0 + 3.0 * (mean + radius - 1.0).max(0.0),

@@ -4,7 +4,7 @@
 //! of `g_a.n_,b - G_a.N_b`, `gam_a = g_a.n - G_a.N`. Resultants are the derivatives of an energy by area, so that forces are
 //! those of an energy.
 
-use crate::material::{Material, Model, SHEAR_CORRECTION, neo_hookean_energy, neo_hookean_stress};
+use crate::material::{Material, Model, SHEAR_CORRECTION, neo_hookean_energy};
 use crate::reference::Base;
 use glam::{DMat3, DVec3};
 
@@ -19,17 +19,6 @@ pub(crate) struct Motion {
 
 /// Strains `eps` 11 22 12, `kap` 11 22 12 \[1/m\] and `gam` 1 2, without the doubling of engineering shear.
 pub(crate) type Strain = [f64; 8];
-
-/// Derivatives of the energy by area with respect to the convected base.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Resultants {
-    /// By the gradient of the position \[N/m\].
-    pub t: [DVec3; 2],
-    /// By the gradient of the director \[N\].
-    pub m: [DVec3; 2],
-    /// By the director \[N/m\].
-    pub q: DVec3,
-}
 
 /// Present convected base.
 #[derive(Clone, Copy)]
@@ -89,27 +78,6 @@ pub(crate) fn parts(r: &[f64; 8], e: &Strain) -> [f64; 3] {
     ]
 }
 
-impl Resultants {
-    /// Adds what normal forces, moments and transverse forces do to the base.
-    #[inline(always)]
-    pub(crate) fn add(&mut self, r: &[f64; 8], p: &Present) {
-        let (g, n) = (&p.g, &p.n);
-        self.t[0] += r[0] * g[0] + r[2] * g[1] + r[3] * n[0] + r[5] * n[1] + r[6] * p.director;
-        self.t[1] += r[2] * g[0] + r[1] * g[1] + r[5] * n[0] + r[4] * n[1] + r[7] * p.director;
-        self.m[0] += r[3] * g[0] + r[5] * g[1];
-        self.m[1] += r[5] * g[0] + r[4] * g[1];
-        self.q += r[6] * g[0] + r[7] * g[1];
-    }
-
-    /// Adds the derivative `s` of an energy by the deformation gradient of the mid-surface.
-    #[inline(always)]
-    pub(crate) fn add_gradient(&mut self, s: &DMat3, base: &Base) {
-        self.t[0] += *s * base.dual[0];
-        self.t[1] += *s * base.dual[1];
-        self.q += *s * base.dual[2];
-    }
-}
-
 /// A point through the thickness.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layer {
@@ -155,6 +123,17 @@ impl Layer {
         Self { zeta, weight: g.determinant(), inverse: g.inverse() }
     }
 
+    /// Height, weight and the inverse of the shifted base row by row, without its last column, which is that of the director.
+    pub(crate) fn numbers(&self) -> [f64; 8] {
+        let (x, y) = (self.inverse.x_axis, self.inverse.y_axis);
+        [self.zeta, self.weight, x.x, y.x, x.y, y.y, x.z, y.z]
+    }
+
+    /// Volume of the layer by area and height, where it was made by [`Self::at`].
+    pub(crate) fn volume(&self) -> f64 {
+        self.weight
+    }
+
     /// Deformation gradient along tangents and director.
     #[inline(always)]
     pub(crate) fn deformation(&self, p: &Present) -> DMat3 {
@@ -175,24 +154,6 @@ pub(crate) fn cauchy_green(f: &DMat3) -> [f64; 5] {
 pub(crate) fn first_piola(f: &DMat3, s: &[f64; 5]) -> DMat3 {
     let (x, y, z) = (f.x_axis, f.y_axis, f.z_axis);
     DMat3::from_cols(s[0] * x + s[2] * y + s[3] * z, s[2] * x + s[1] * y + s[4] * z, s[3] * x + s[4] * y)
-}
-
-impl Resultants {
-    /// Adds the neo-Hookean stress of the layers.
-    #[inline(always)]
-    pub(crate) fn add_layers(&mut self, material: &Material, layers: &[Layer], p: &Present) {
-        let (shear, lame) = (material.shear(), material.lame());
-        for layer in layers {
-            let f = layer.deformation(p);
-            let stress = neo_hookean_stress(shear, lame, &cauchy_green(&f));
-            let by_base = first_piola(&f, &stress) * layer.inverse.transpose();
-            self.t[0] += layer.weight * by_base.x_axis;
-            self.t[1] += layer.weight * by_base.y_axis;
-            self.q += layer.weight * by_base.z_axis;
-            self.m[0] += (layer.weight * layer.zeta) * by_base.x_axis;
-            self.m[1] += (layer.weight * layer.zeta) * by_base.y_axis;
-        }
-    }
 }
 
 /// Energies by area \[J/m^2\] of membrane, bending and shear; with layers bending is what the mid-surface does not explain.

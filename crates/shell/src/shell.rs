@@ -5,9 +5,10 @@ use crate::error::{ShellError, within};
 use crate::forces::Forces;
 use crate::frequency::highest_frequency;
 use crate::load::{Loads, turning};
-use crate::material::Material;
+use crate::material::{Material, Model};
 use crate::numbers::Numbers;
 use crate::reference::{Arrangement, Ordered, Reference};
+use crate::section::Layer;
 use crate::state::ShellState;
 use crate::support::{Support, numbered};
 use glam::DVec3;
@@ -102,6 +103,9 @@ impl<R: Real> Shell<R> {
             id: &state.id,
         };
         let reference = Reference::<R>::new(arrangement, &ordered, &numbers, isa)?;
+        if let Model::NeoHookean { .. } = material.model() {
+            unfolded(&reference, &state)?;
+        }
         let mut forces = Forces::new(material, reference, &state.thickness, &numbers, isa);
         let frequency = highest_frequency(&mut forces, &state, &numbers)?;
         let shown = Shown {
@@ -220,13 +224,11 @@ impl<R: Real> Shell<R> {
 
     /// Bytes held.
     pub fn bytes(&mut self) -> usize {
-        let vectors = 3 * self.shown.position.capacity()
-            + self.loads.fluid.capacity()
-            + self.loads.acceleration.capacity()
-            + self.loads.turning.capacity();
+        let vectors = 3 * self.shown.position.capacity();
         let numbers = self.shown.depth.capacity() + self.shown.volume.capacity();
         visit::bytes(self)
             + self.forces.bytes()
+            + self.loads.bytes()
             + vectors * size_of::<DVec3>()
             + numbers * size_of::<f64>()
             + 4 * self.place.capacity()
@@ -238,6 +240,20 @@ impl<R: Real> Columns for Shell<R> {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         self.state.visit(visitor);
     }
+}
+
+/// Whether the layers of all particles have a volume.
+fn unfolded<R>(reference: &Reference<R>, state: &ShellState) -> Result<(), ShellError> {
+    for (i, base) in reference.base.iter().enumerate() {
+        let thickness = state.thickness[i];
+        let at = |zeta: f64| Layer::at(base, zeta).volume();
+        let volume = at(0.5 * thickness).min(at(-0.5 * thickness)) / at(0.0);
+        if volume <= 0.0 {
+            let (particle, position) = (state.id[i], state.reference_position[i]);
+            return Err(ShellError::Folded { particle, position, thickness, volume });
+        }
+    }
+    Ok(())
 }
 
 fn at_rest(particles: &Particles, numbers: &Numbers, order: &[u32]) -> ShellState {

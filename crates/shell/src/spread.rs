@@ -6,89 +6,112 @@
 
 use crate::error::ShellError;
 use crate::forces::Forces;
-use crate::law::{DISPLACEMENT_UNIT, Divergence, Gradient};
+use crate::law::{DISPLACEMENT_UNIT, Slope, Tension};
 use crate::reference::Base;
 use crate::section::Present;
 use crate::shell::Shell;
 use crate::state::ShellState;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, FIELDS, Real, sweep_links};
+use vaso_kernels::{CHUNK, Real, sweep_links};
 use vaso_particles::WallLoad;
 
-/// Present over reference area between the base vectors `g`, and its derivatives with respect to them.
-fn stretch(base: &Base, g: &[DVec3; 2]) -> (f64, [DVec3; 2]) {
-    let scale = 1.0 / base.g[0].cross(base.g[1]).length();
-    let cross = g[0].cross(g[1]);
-    let normal = cross.normalize_or_zero();
-    (scale * cross.length(), [scale * g[1].cross(normal), scale * normal.cross(g[0])])
+/// Area of a particle.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Stretch {
+    /// Present over reference area.
+    ratio: f64,
+    /// Its derivatives by the base vectors.
+    by_base: [DVec3; 2],
+}
+
+impl Stretch {
+    fn new(base: &Base, g: &[DVec3; 2]) -> Self {
+        let scale = 1.0 / base.g[0].cross(base.g[1]).length();
+        let cross = g[0].cross(g[1]);
+        let normal = cross.normalize_or_zero();
+        let by_base = [scale * g[1].cross(normal), scale * normal.cross(g[0])];
+        Self { ratio: scale * cross.length(), by_base }
+    }
 }
 
 impl<R: Real> Forces<R> {
-    fn stretch(&self, state: &ShellState, i: usize) -> (f64, [DVec3; 2]) {
+    fn stretch(&self, state: &ShellState, i: usize) -> Stretch {
+        if let Some(known) = self.stretch.get(i) {
+            return *known;
+        }
         let base = &self.reference.base[i];
-        stretch(base, &Present::new(base, &self.motion[i], state.director[i]).g)
+        Stretch::new(base, &Present::new(base, &self.motion[i], state.director[i]).g)
     }
 
-    /// Writes the rates of the area strain \[1/s\]. Velocities are taken over the time `dt` \[s\], as displacements.
+    /// Writes the rates of the area strain \[1/s\], and keeps the areas until the shell moves on. Velocities are taken over the time `dt`
+    /// \[s\], as displacements.
     fn strain_rates(&mut self, state: &ShellState, dt: f64, rate: &mut [f64]) {
         let support = self.reference.frame.support();
         let in_supports = dt / support;
         self.kinematic.as_mut_slice().par_iter_mut().zip(&state.velocity[..]).with_min_len(1024).for_each(
             |(record, v)| {
                 let u = (*v * in_supports).to_array();
-                *record = [R::coordinate(0, 0.0); FIELDS];
                 for k in 0..3 {
                     record[k] = R::coordinate((u[k] * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u[k]);
                 }
             },
         );
+        let mut stretches = std::mem::take(&mut self.stretch);
+        stretches.clear();
+        stretches.resize(rate.len(), Stretch::default());
         let this = &*self;
         let reference = &this.reference;
-        rate.par_chunks_mut(CHUNK).zip(reference.rows.chunks()).enumerate().for_each(|(c, (rate, row))| {
-            let mut sums = [[0.0; 12]; CHUNK];
-            let stored = &reference.forward.chunks()[c];
-            sweep_links(this.isa, &Gradient, (&this.kinematic, None), (row, c * CHUNK), stored, &mut sums);
-            for (k, rate) in rate.iter_mut().enumerate() {
-                let s = &sums[k];
-                let (_, by_base) = this.stretch(state, c * CHUNK + k);
-                // The sums are of own minus neighbour.
-                let along = |a: usize| -support / dt * DVec3::new(s[a], s[2 + a], s[4 + a]);
-                *rate = by_base[0].dot(along(0)) + by_base[1].dot(along(1));
-            }
-        });
+        (rate.par_chunks_mut(CHUNK), stretches.par_chunks_mut(CHUNK), reference.rows.chunks())
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(c, (rate, stretches, row))| {
+                let mut sums = [[0.0; 6]; CHUNK];
+                let stored = &reference.forward.chunks()[c];
+                sweep_links(this.isa, &Slope, (&this.kinematic, None), (row, c * CHUNK), stored, &mut sums);
+                for (k, (rate, stretch)) in rate.iter_mut().zip(stretches).enumerate() {
+                    let s = &sums[k];
+                    *stretch = this.stretch(state, c * CHUNK + k);
+                    // The sums are of own minus neighbour.
+                    let along = |a: usize| -support / dt * DVec3::new(s[a], s[2 + a], s[4 + a]);
+                    *rate = stretch.by_base[0].dot(along(0)) + stretch.by_base[1].dot(along(1));
+                }
+            });
+        self.stretch = stretches;
     }
 
     /// Adds to `force` \[N\] those of loads whose work on an area strain of one is `spread` \[J\].
     fn spread(&mut self, state: &ShellState, spread: &[f64], force: &mut [DVec3]) {
-        let tension: Vec<[DVec3; 2]> = (0..spread.len())
-            .into_par_iter()
-            .with_min_len(1024)
-            .map(|i| self.stretch(state, i).1.map(|by_base| -spread[i] / state.area[i] * by_base))
-            .collect();
-        let packed = |t: &[DVec3; 2]| [t[0].x, t[0].y, t[0].z, t[1].x, t[1].y, t[1].z, 0.0, 0.0].map(R::pack);
-        self.force.fill(|i| packed(&tension[i]));
-        self.moment.fill(|_| [R::pack(0.0); FIELDS]);
+        let (mut tension, mut records) = (std::mem::take(&mut self.own), std::mem::take(&mut self.force));
         let this = &*self;
+        (&mut tension, records.as_mut_slice()).into_par_iter().enumerate().with_min_len(1024).for_each(
+            |(i, (tension, record))| {
+                let by_area = -spread[i] / state.area[i];
+                let Stretch { by_base: [a, b], .. } = this.stretch(state, i);
+                *tension = [by_area * a, by_area * b];
+                let [a, b] = *tension;
+                *record = [a.x, a.y, a.z, b.x, b.y, b.z, 0.0, 0.0].map(R::pack);
+            },
+        );
         let reference = &this.reference;
-        let records = (&this.force, Some(&this.moment));
         force.par_chunks_mut(CHUNK).zip(reference.rows.chunks()).enumerate().for_each(|(c, (force, row))| {
-            let mut sums = [[0.0; 6]; CHUNK];
+            let mut sums = [[0.0; 3]; CHUNK];
             let stored = &reference.backward.chunks()[c];
-            sweep_links(this.isa, &Divergence, records, (row, c * CHUNK), stored, &mut sums);
+            sweep_links(this.isa, &Tension, (&records, None), (row, c * CHUNK), stored, &mut sums);
             for (k, force) in force.iter_mut().enumerate() {
                 let i = c * CHUNK + k;
-                let ([w0, w1], [t0, t1], s) = (reference.own[i], tension[i], &sums[k]);
-                *force += state.area[i] * (w0 * t0 + w1 * t1 + DVec3::new(s[0], s[1], s[2]));
+                let ([w0, w1], [t0, t1]) = (reference.own[i], tension[i]);
+                *force += state.area[i] * (w0 * t0 + w1 * t1 + DVec3::from_array(sums[k]));
             }
         });
+        (self.own, self.force) = (tension, records);
     }
 }
 
 impl<R: Real> Shell<R> {
     /// Strain of the area at particle `i`: present over reference area, less one.
     pub fn area_strain(&self, i: usize) -> f64 {
-        self.forces.stretch(&self.state, i).0 - 1.0
+        self.forces.stretch(&self.state, i).ratio - 1.0
     }
 
     /// Writes the rates of the area strains \[1/s\]. `dt` \[s\] is a time in which particles move by little of their distance.
@@ -110,11 +133,10 @@ impl<R: Real> Shell<R> {
         if spread.len() != expected {
             return Err(ShellError::Count { what: "spread", given: spread.len(), expected });
         }
-        let mut force = load.pressure_force.to_vec();
-        if force.len() == expected {
-            self.forces.spread(&self.state, spread, &mut force);
-        }
-        self.set_load(&WallLoad { pressure_force: &force, ..*load })
+        self.take_load(load)?;
+        self.forces.spread(&self.state, spread, &mut self.loads.fluid);
+        self.loads.update(&self.state, &self.forces);
+        Ok(())
     }
 }
 
@@ -132,13 +154,13 @@ mod tests {
             dual: [DVec3::ZERO; 3],
         };
         let g = [DVec3::new(1.2, 0.1, -0.1), DVec3::new(0.1, 0.8, 0.3)];
-        let (_, by_base) = stretch(&base, &g);
+        let by_base = Stretch::new(&base, &g).by_base;
         for (a, by_base) in by_base.into_iter().enumerate() {
             for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
                 let at = |e: f64| {
                     let mut moved = g;
                     moved[a] += e * axis;
-                    stretch(&base, &moved).0
+                    Stretch::new(&base, &moved).ratio
                 };
                 let numeric = (at(1e-6) - at(-1e-6)) / 2e-6;
                 assert!((numeric - by_base.dot(axis)).abs() < 1e-9, "{numeric} {by_base}");
