@@ -9,7 +9,7 @@ use vaso_io::{Archive, Cache, CacheKey, KeyBuilder};
 use vaso_scene::{Generator, Word};
 
 /// Layout version of cached particles; to be raised whenever generation changes its results.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// A body that can be kept.
 pub trait Kept: Sized {

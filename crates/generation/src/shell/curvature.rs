@@ -25,6 +25,20 @@ pub(crate) fn smooth(particles: &mut [Foot], listed: &Listed, kernel: &PlaneKern
     listed.map(|i, row| fit(i, row, particles, kernel).1)
 }
 
+/// Least curvature \[1/m\] from each particle towards one that is closer than `reach` \[m\]: how much the normals spread along the way.
+pub(crate) fn sharpest(particles: &[Foot], listed: &Listed, reach: f64) -> Vec<f64> {
+    listed.map(|i, row| {
+        let own = &particles[i];
+        let others = row.iter().map(|&j| &particles[j as usize]).filter_map(|other| {
+            let away = other.point - own.point;
+            let square = away.length_squared();
+            (square > 0.0 && square < reach * reach && same_sheet(own.normal, other.normal))
+                .then(|| (other.normal - own.normal).dot(away) / square)
+        });
+        others.fold(0.0, f64::min)
+    })
+}
+
 /// Normal and principal curvatures at particle `i` by a linear fit of the normals of those it sees.
 ///
 /// A fit, not a mean: by a rim a mean leans towards the side where the neighbours are. On a sphere or a

@@ -25,7 +25,7 @@ use vaso_geometry::Vessel;
 pub enum ShellReference {
     /// The surface of the lumen; right for a rigid shell.
     Lumen,
-    /// Half a thickness outside it, the surface a shell deforms about.
+    /// Half a thickness outside it, the surface a shell deforms about; where a wall would fold onto itself it is thinner.
     #[default]
     MidSurface,
 }
@@ -78,7 +78,7 @@ pub struct ShellBody {
     /// Area of each particle where it stands \[m^2\]: on the lumen surface the same for all, on the
     /// mid-surface stretched by the curvature.
     pub area: Vec<f64>,
-    /// Thickness of the wall \[m\].
+    /// Thickness of the wall \[m\], less than asked for where it would fold onto itself.
     pub thickness: Vec<f64>,
     /// Principal curvatures of the surface the particles stand on, the larger first \[1/m\]; positive where
     /// normals spread, 1/R and 0 on a tube of radius R.
@@ -153,7 +153,8 @@ fn shell_of(
     let area = vec![relaxation.area; count];
     let mut body = ShellBody { position, normal, area, thickness, curvature, clamped, quality };
     if settings.reference == ShellReference::MidSurface {
-        body.offset(0.5 * settings.thickness);
+        let sharpest = curvature::sharpest(&particles, &listed, CLOSE * spacing);
+        body.offset(&sharpest);
     }
     Ok(body)
 }
@@ -181,18 +182,27 @@ fn check(vessel: &Vessel, settings: &ShellSettings) -> Result<(), GenerationErro
     Ok(())
 }
 
-/// Least factor by which an offset may shrink an area: beyond a centre of curvature it would be negative.
-const LEAST_STRETCH: f64 = 0.1;
+/// Distance up to which particles are close, in spacings: more than to the nearest, less than to the next but one.
+const CLOSE: f64 = 1.6;
+/// Least factor by which a wall may shrink a length between the lumen and its outer face.
+const LEAST_STRETCH: f64 = 0.2;
 
 impl ShellBody {
-    /// Moves the particles along their normals by `distance` \[m\]; areas and curvatures follow by Steiner's
-    /// formula, `A (1 + k1 d)(1 + k2 d)` and `k / (1 + k d)`.
-    fn offset(&mut self, distance: f64) {
+    /// Moves the particles along their normals to the middle of the wall; areas and curvatures follow by Steiner's formula,
+    /// `A (1 + k1 d)(1 + k2 d)` and `k / (1 + k d)`.
+    ///
+    /// Beyond a centre of curvature, as between two branches, a wall would fold onto itself. What would lie there belongs to the other
+    /// side already, so the wall ends before it, and is thinner there than asked for.
+    ///
+    /// `sharpest` is the least curvature \[1/m\] between each particle and those close to it: at a crease smoothed ones tell too little.
+    fn offset(&mut self, sharpest: &[f64]) {
         for (i, k) in self.curvature.iter_mut().enumerate() {
+            let least = k[0].min(k[1]).min(sharpest[i]);
+            let largest = (1.0 - LEAST_STRETCH) / (-least).max(0.0);
+            self.quality.folded += usize::from(self.thickness[i] > largest);
+            self.thickness[i] = self.thickness[i].min(largest);
+            let distance = 0.5 * self.thickness[i];
             let stretch = k.map(|k| 1.0 + k * distance);
-            let is_folded = stretch.iter().any(|s| *s < LEAST_STRETCH);
-            self.quality.folded += usize::from(is_folded);
-            let stretch = stretch.map(|s| s.max(LEAST_STRETCH));
             self.position[i] += distance * self.normal[i];
             self.area[i] *= stretch[0] * stretch[1];
             *k = [k[0] / stretch[0], k[1] / stretch[1]];

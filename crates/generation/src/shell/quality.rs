@@ -32,8 +32,7 @@ pub struct ShellQuality {
     /// Largest distance of a particle, or of its foot for a mid-surface, from the lumen surface over the
     /// diagonal of its box.
     pub surface_distance_max: f64,
-    /// Particles of a mid-surface where the wall folds onto itself: half a thickness reaches beyond a centre
-    /// of curvature.
+    /// Particles of a mid-surface where the wall is thinner than asked for, since it would fold onto itself.
     pub folded: usize,
     /// Wall-clock time of the generation \[s\], where the caller has measured it.
     pub seconds: Option<f64>,
