@@ -48,6 +48,10 @@ validate-walls:
 bench:
     cargo bench -p vaso-benches
 
+# The page of the speed, measured anew; five minutes on two quiet cores.
+ladder:
+    cargo bench -p vaso-benches --bench ladder -- --write
+
 # The figures of accuracy and speed, measured anew; a quarter of an hour on two cores.
 figures:
     cargo run --release -p vaso-tests --example figures -- 10 16 20 > docs/figures.md

@@ -1,4 +1,6 @@
-//! Material of the benches: a jittered lattice as dense as blood in a vessel.
+//! Material of the benches: a jittered lattice as dense as blood in a vessel, and the page of the speed.
+
+pub mod speed;
 
 use glam::DVec3;
 use vaso_kernels::{CellGrid, Frame, Isa, Real, Records, Rows, SearchSet, Wendland};

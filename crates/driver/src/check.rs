@@ -42,7 +42,7 @@ pub(crate) fn planned(case: &Case, plan: &Plan) -> CheckReport {
         openings: plan.openings.iter().map(|o| opening_entry(&o.name, &o.opening)).collect(),
         numbers: Some(numbers(plan)),
         effects: plan.effects.clone(),
-        predicted: Some(plan.predicted),
+        predicted: Some(plan.expected()),
         warnings: plan.warnings.clone(),
     }
 }

@@ -3,9 +3,10 @@
 use crate::case::Case;
 use crate::plan::PlannedOpening;
 use crate::shell::PlannedShell;
+use crate::start;
 use crate::structure::PlannedWall;
 use std::f64::consts::PI;
-use vaso_boundary::Condition;
+use vaso_boundary::{Condition, Windkessel, mean_split};
 use vaso_fluid::Numbers;
 use vaso_geometry::{Opening, Vessel};
 use vaso_io::{ParticleCounts, Predicted};
@@ -76,12 +77,13 @@ impl Flow {
         }
         // Beside a pressure that is given, that of a model counts in full.
         let is_relative = reference_pressure.is_none() && lowest > highest;
-        for (model, start) in openings.iter().filter_map(|o| o.condition.model()) {
-            if !is_relative {
-                let share = inflow / openings.len() as f64;
-                let driven = model.distal_pressure + model.total_resistance() * share;
-                let driven = if driven.is_finite() { driven } else { start };
-                (lowest, highest) = (lowest.min(start).min(driven), highest.max(start).max(driven));
+        let is_driven = lowest <= highest;
+        if !is_relative {
+            for (_, start) in openings.iter().filter_map(|o| o.condition.model()) {
+                (lowest, highest) = (lowest.min(start), highest.max(start));
+            }
+            if let Some([low, high]) = behind_outlets(openings, inflow, is_driven) {
+                (lowest, highest) = (lowest.min(low), highest.max(high));
             }
         }
         if let Some(p) = reference_pressure {
@@ -134,6 +136,21 @@ impl Flow {
     }
 }
 
+/// Pressures \[Pa\] that the inflow leads to at the caps of the outlet models: those of their periodic cycles, each under its share of an
+/// inflow that repeats; else that of all of them together under a `peak` \[m^3/s\] that stays. `None` where there are no models, or the
+/// pressure would rise for ever.
+fn behind_outlets(openings: &[PlannedOpening], peak: f64, is_driven: bool) -> Option<[f64; 2]> {
+    let models: Vec<Windkessel> = openings.iter().filter_map(|o| o.condition.model().map(|m| m.0)).collect();
+    let steady = || mean_split(&models, peak).map(|(pressure, _)| [pressure; 2]).ok();
+    let Some(inflow) = start::inflow(openings).filter(|_| !is_driven) else { return steady() };
+    let (_, shares) = mean_split(&models, inflow.mean()).ok()?;
+    let cycles: Result<Vec<_>, _> =
+        models.iter().zip(shares).map(|(model, share)| model.periodic(&inflow.scaled(share))).collect();
+    let Ok(cycles) = cycles else { return steady() };
+    let ends = cycles.iter().map(|cycle| [cycle.diastolic, cycle.systolic]);
+    ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+}
+
 /// Length of a vessel \[m\]: from an opening to the point of its surface farthest away. Unlike a box along the axes it is the same
 /// however the vessel is turned.
 fn length(vessel: &Vessel) -> f64 {
@@ -146,18 +163,22 @@ fn length(vessel: &Vessel) -> f64 {
 /// Peak over mean of a developed profile.
 const PARABOLIC: f64 = 2.0;
 /// Time a core takes in mixed precision for an acoustic step of a fluid particle, for an advective step of one, and for an acoustic step
-/// of a particle of a wall at rest \[s\]: fitted to the runs of `docs/accuracy.md`, which it gives within a fifth.
-const ACOUSTIC: f64 = 0.13e-6;
-const ADVECTIVE: f64 = 2.8e-6;
-const WALL_AT_REST: f64 = 0.10e-6;
+/// of a particle of a wall at rest \[s\]: those of `docs/speed.md`.
+const ACOUSTIC: f64 = 0.285e-6;
+const ADVECTIVE: f64 = 1.35e-6;
+const WALL_AT_REST: f64 = 0.018e-6;
+/// Share of the threads that is at work.
+const EFFICIENCY: f64 = 0.87;
 /// How much longer all of it takes in double precision.
 const DOUBLE: f64 = 1.3;
 /// Time a particle of a solid takes a core for one sub-step \[s\]: measured, see `docs/theory/solids.md`.
 const SUBSTEP_SOLID: f64 = 0.28e-6;
-/// Time a particle of a shell takes a core for one sub-step \[s\]: measured, see `docs/theory/shells.md`.
-const SUBSTEP_SHELL: f64 = 0.34e-6;
+/// Time a particle of a shell takes a core for one sub-step, and for what it and the blood show each other in an acoustic step \[s\]: of the
+/// same runs.
+const SUBSTEP_SHELL: f64 = 0.36e-6;
+const STEP_SHELL: f64 = 0.75e-6;
 /// Time a particle of any body takes a core to be made \[s\]: of the same runs.
-const GENERATION: f64 = 0.5e-3;
+const GENERATION: f64 = 0.3e-3;
 /// Bytes a fluid particle takes, rows included.
 const BYTES_MIXED: f64 = 2000.0;
 const BYTES_DOUBLE: f64 = 2800.0;
@@ -208,9 +229,10 @@ pub fn cost(
     });
     let shell_time = shell.map_or(0.0, |s| {
         let own = s.numbers.expected_step(&s.material, s.thickness);
-        one_layer * (end_time / step) * (step / own).ceil() * SUBSTEP_SHELL
+        one_layer * (end_time / step) * ((step / own).ceil() * SUBSTEP_SHELL + STEP_SHELL)
     });
     let threads = rayon::current_num_threads() as f64;
+    let at_work = if threads > 1.0 { EFFICIENCY * threads } else { threads };
     Predicted {
         particles: ParticleCounts {
             fluid: fluid.round() as u64,
@@ -219,6 +241,6 @@ pub fn cost(
         },
         memory_bytes: (fluid * bytes + (wall + BYTES_SHELL * one_layer) * BYTES_WALL) as u64,
         wall_clock_s: (fluid_time + solid_time + shell_time + (fluid + wall + one_layer) * GENERATION)
-            / threads,
+            / at_work,
     }
 }

@@ -6,6 +6,7 @@ use crate::conditions;
 pub use crate::conditions::PlannedOpening;
 use crate::error::DriverError;
 use crate::estimate;
+use crate::machine;
 use crate::print::length;
 use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
@@ -55,14 +56,11 @@ pub struct Plan {
     pub viscosity: f64,
     /// Every effect the program knows.
     pub effects: Vec<EffectEntry>,
-    /// Expected cost.
+    /// Expected cost, on the machine on which its constants were fitted; see [`Self::expected`].
     pub predicted: Predicted,
     /// Advice.
     pub warnings: Vec<String>,
 }
-
-/// Sound speed over that of the pulse wave: `1/c_eff^2 = 1/c_w^2 + 1/c^2`, so that 7 slows it by one per cent.
-const PULSE_FACTOR: f64 = 7.0;
 
 /// Density change allowed for the pressure range in the equation of state.
 const DENSITY_CHANGE: f64 = 0.01;
@@ -75,6 +73,12 @@ impl Plan {
     /// Whether the wall deforms.
     pub fn deforms(&self) -> bool {
         self.wall.is_some() || self.shell.is_some()
+    }
+
+    /// Expected cost on this machine, which is measured for that once.
+    pub fn expected(&self) -> Predicted {
+        let wall_clock_s = self.predicted.wall_clock_s * machine::slowness();
+        Predicted { wall_clock_s, ..self.predicted }
     }
 
     /// Plans a case.
@@ -103,26 +107,19 @@ impl Plan {
         let flow = estimate::Flow::new(&case.vessel, &openings, density, viscosity, ramp, reference_pressure);
         let by_speed = scene.numerics.sound_speed_factor * flow.top_speed;
         let by_pressure = (flow.pressure_range / (DENSITY_CHANGE * density)).sqrt();
-        let pulse_speed = wall.as_ref().map(|w| w.pulse_speed).or(shell.as_ref().map(|s| s.pulse_speed));
-        let by_wave = PULSE_FACTOR * pulse_speed.unwrap_or(0.0);
-        let (sound_speed, sound_speed_reason) = match scene.numerics.sound_speed {
-            Some(given) => (given, "given in the case".to_owned()),
-            None if by_wave >= by_speed.max(by_pressure) => (
-                by_wave,
-                format!(
-                    "{PULSE_FACTOR} times the pulse wave speed of {:.2} m/s, which it then slows by {:.0} %",
-                    by_wave / PULSE_FACTOR,
-                    50.0 / (PULSE_FACTOR * PULSE_FACTOR)
-                ),
-            ),
-            None if by_speed >= by_pressure => (
+        let pulse = wall.as_ref().map(|w| w.pulse).or(shell.as_ref().map(|s| s.pulse));
+        let decisive = pulse.filter(|p| p.sound_speed() >= by_speed.max(by_pressure));
+        let (sound_speed, sound_speed_reason) = match (scene.numerics.sound_speed, decisive) {
+            (Some(given), _) => (given, "given in the case".to_owned()),
+            (None, Some(pulse)) => (pulse.sound_speed(), pulse.reason()),
+            (None, None) if by_speed >= by_pressure => (
                 by_speed,
                 format!(
                     "{} times the expected top speed of {:.3} m/s ({})",
                     scene.numerics.sound_speed_factor, flow.top_speed, flow.top_speed_reason
                 ),
             ),
-            None => (
+            (None, None) => (
                 by_pressure,
                 format!(
                     "keeps the density within {:.0} % over a pressure range of {:.0} Pa ({})",
@@ -169,7 +166,7 @@ impl Plan {
         let isa = Isa::detect();
         let predicted =
             estimate::cost(case, &numbers, (wall.as_ref(), shell.as_ref()), precision, scene.run.end_time);
-        let radial_strain = pulse_speed.map(|c| flow.pressure_range / (2.0 * density * c * c));
+        let radial_strain = pulse.map(|p| flow.pressure_range / (2.0 * density * p.mean * p.mean));
         let womersley = scene
             .run
             .period

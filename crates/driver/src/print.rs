@@ -32,7 +32,7 @@ pub fn audit(vessel: &vaso_geometry::Vessel, file: &std::path::Path) -> String {
 pub fn plan(case: &Case, plan: &Plan) -> String {
     let mut out = String::new();
     let n = &plan.numbers;
-    let p = &plan.predicted;
+    let p = plan.expected();
     let viscosity = match n.rheology {
         None => format!("{:.3}", 1e3 * n.viscosity),
         Some(law) => {
@@ -60,18 +60,18 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     );
     let kind = match (&plan.wall, &plan.shell) {
         (Some(wall), _) => format!(
-            "solid, {:.1} layers   spacing {:.3} mm   density {} kg/m3   pulse wave {:.2} m/s",
+            "solid, {:.1} layers   spacing {:.3} mm   density {} kg/m3   pulse wave {}",
             wall.layers(),
             wall.numbers.spacing * 1e3,
             wall.numbers.density,
-            wall.pulse_speed
+            wall.pulse
         ),
         (None, Some(shell)) => format!(
-            "deforms, {:.3} mm thick   spacing {:.3} mm   density {} kg/m3   pulse wave {:.2} m/s",
+            "deforms, {:.3} mm thick   spacing {:.3} mm   density {} kg/m3   pulse wave {}",
             shell.thickness * 1e3,
             shell.numbers.spacing * 1e3,
             shell.numbers.density,
-            shell.pulse_speed
+            shell.pulse
         ),
         (None, None) if p.particles.shell > 0 => "rigid, one layer with ghosts behind it".to_owned(),
         (None, None) => "rigid, four layers".to_owned(),

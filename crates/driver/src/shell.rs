@@ -4,6 +4,7 @@ use crate::bodies;
 use crate::case::Case;
 use crate::error::{DriverError, problem};
 use crate::plan::Plan;
+use crate::pulse::PulseWave;
 use crate::structure;
 use vaso_coupling::{Foot, GhostColumns, ShellWall};
 use vaso_fluid::Real;
@@ -21,8 +22,8 @@ pub struct PlannedShell {
     pub material: Material,
     /// Thickness \[m\].
     pub thickness: f64,
-    /// Fastest pulse wave expected, of Moens and Korteweg for a tethered tube \[m/s\].
-    pub pulse_speed: f64,
+    /// Pulse wave expected.
+    pub pulse: PulseWave,
     /// Pressure of the blood beyond that at which the wall is unloaded, as far as the equation of state does not carry it
     /// \[Pa\].
     pub carried_pressure: f64,
@@ -55,12 +56,11 @@ impl PlannedShell {
             Damping::Material => DAMPING,
             Damping::QuasiStatic => QUASI_STATIC_DAMPING,
         };
-        let radius = narrowest(case);
         Ok(Some(Self {
             numbers,
             material,
             thickness: wall.thickness,
-            pulse_speed: (material.plate() * wall.thickness / (2.0 * blood.density * radius)).sqrt(),
+            pulse: PulseWave::new(&case.vessel, material.plate() * wall.thickness, blood.density),
             carried_pressure: reference_pressure - wall.unloaded_pressure,
             implicit_impedance: structure::implicit_impedance(wall, blood.density * scene.particles.spacing),
         }))

@@ -4,6 +4,7 @@ use crate::bodies;
 use crate::case::Case;
 use crate::error::{DriverError, problem};
 use crate::plan::Plan;
+use crate::pulse::PulseWave;
 use glam::DVec3;
 use vaso_boundary::BUFFER_LENGTH;
 use vaso_fluid::Real;
@@ -25,8 +26,8 @@ pub struct PlannedWall {
     pub material: Material,
     /// Thickness \[m\].
     pub thickness: f64,
-    /// Fastest pulse wave expected, of Moens and Korteweg for a tethered tube \[m/s\].
-    pub pulse_speed: f64,
+    /// Pulse wave expected.
+    pub pulse: PulseWave,
     /// Pressure of the blood beyond that at which the wall is unloaded, as far as the equation of state does not carry it
     /// \[Pa\].
     pub carried_pressure: f64,
@@ -64,13 +65,12 @@ impl PlannedWall {
             Damping::QuasiStatic => QUASI_STATIC_DAMPING,
         };
         let (young, poisson) = constants(wall);
-        let radius = case.vessel.openings.iter().map(|o| o.radius).fold(f64::INFINITY, f64::min);
         let stiffness = young * wall.thickness / (1.0 - poisson * poisson);
         Ok(Some(Self {
             numbers,
             material,
             thickness: wall.thickness,
-            pulse_speed: (stiffness / (2.0 * blood.density * radius)).sqrt(),
+            pulse: PulseWave::new(&case.vessel, stiffness, blood.density),
             carried_pressure: reference_pressure - wall.unloaded_pressure,
             implicit_impedance: implicit_impedance(wall, blood.density * scene.particles.spacing),
         }))

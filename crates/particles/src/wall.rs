@@ -41,7 +41,7 @@ pub struct WallLoad<'a> {
 }
 
 /// Signed distance to the wall surface of the lumen, continued beyond the openings.
-pub trait WallDistance: Sync {
+pub trait WallDistance: Send + Sync {
     /// Distance \[m\], negative in the lumen, and its unit gradient; may be clamped far from the wall.
     fn sample(&self, x: DVec3) -> (f64, DVec3);
 }

@@ -259,7 +259,7 @@ fn words(
         "cost",
         format!(
             "about {} here for {} s of flow, {} particles of blood",
-            duration(plan.predicted.wall_clock_s),
+            duration(plan.expected().wall_clock_s),
             plan.end_time,
             plan.predicted.particles.fluid
         ),

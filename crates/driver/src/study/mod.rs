@@ -117,7 +117,7 @@ fn bounded(wish: &Wish, goal: Option<Goal>, case: &Case, plan: &Plan) -> Wish {
     }
     if let (Some(Goal::Budget(budget)), None) = (goal, &wish.spacings) {
         let own = case.scene.particles.spacing;
-        wish.spacings = Some(ladder::within(own, plan.predicted.wall_clock_s, LADDER_SHARE * budget));
+        wish.spacings = Some(ladder::within(own, plan.expected().wall_clock_s, LADDER_SHARE * budget));
     }
     wish
 }
@@ -209,7 +209,7 @@ impl Climb<'_> {
         // Particles made once and found again would make the second run look faster than it is.
         case.cache = None;
         let plan = Plan::new(&case)?;
-        row.predicted_s = plan.predicted.wall_clock_s;
+        row.predicted_s = plan.expected().wall_clock_s;
         let out = self.out.join("runs").join(&variant.name);
         let mut times = Vec::with_capacity(self.repeat);
         let mut last = Summary::default();
