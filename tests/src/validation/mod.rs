@@ -5,6 +5,7 @@
 
 pub mod backflow;
 pub mod common_carotid;
+pub mod elastic_patients;
 pub mod ends;
 pub mod frames;
 pub mod lumped;
@@ -171,6 +172,8 @@ pub const CASES: &[Case] = &[
     common_carotid::CASE,
     patients::CAROTID,
     patients::AORTA,
+    elastic_patients::CAROTID,
+    elastic_patients::AORTA,
 ];
 
 /// The case of a name.

@@ -1,6 +1,7 @@
 //! Vessels of persons between a measured inflow and Windkessels: the published carotid and aorta.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use vaso_boundary::{Windkessel, mean_split};
 use vaso_driver::{Case as Setup, Plan, world};
@@ -40,7 +41,7 @@ pub const AORTA: Case = Case {
 type OutletSpec = (&'static str, [f64; 3], [f64; 3]);
 
 /// A vessel of the outside data.
-struct Spec {
+pub(super) struct Spec {
     surface: &'static str,
     unit: &'static str,
     spacing: f64,
@@ -55,7 +56,7 @@ struct Spec {
     balance: Tolerance,
 }
 
-const CAROTID_SPEC: Spec = Spec {
+pub(super) const CAROTID_SPEC: Spec = Spec {
     surface: "geometry/carotid_bifurcation/carotid_lumen.stl",
     unit: "mm",
     spacing: 0.4e-3,
@@ -70,7 +71,7 @@ const CAROTID_SPEC: Spec = Spec {
     balance: Tolerance::Asked(0.002),
 };
 
-const AORTA_SPEC: Spec = Spec {
+pub(super) const AORTA_SPEC: Spec = Spec {
     surface: "geometry/aorta_arch_vmr0024/aorta_lumen.stl",
     unit: "cm",
     spacing: 1.2e-3,
@@ -88,31 +89,40 @@ const AORTA_SPEC: Spec = Spec {
     balance: Tolerance::Held(0.01),
 };
 
+impl Spec {
+    /// The case of this many beats, but for the wall.
+    pub(super) fn text(&self, data: &Path, beats: f64) -> String {
+        let (near, profile, waveform) = self.inlet;
+        let mut text = format!(
+            "[geometry]\nsurface = {:?}\nunit = \"{}\"\n[particles]\nspacing = \"{} m\"\n\
+         [blood]\ndensity = \"1060 kg/m^3\"\nviscosity = \"3.5 mPa s\"\n\
+         [[opening]]\nname = \"inlet\"\nnear = {near:?}\ncondition = \"velocity\"\nprofile = \"{profile}\"\nwaveform = {:?}\n",
+            data.join(self.surface),
+            self.unit,
+            self.spacing,
+            data.join(waveform),
+        );
+        for (name, near, [proximal, compliance, distal]) in self.outlets {
+            write!(
+                text,
+                "[[opening]]\nname = \"{name}\"\nnear = {near:?}\ncondition = \"windkessel\"\n\
+             proximal_resistance = \"{proximal} Pa s/m^3\"\ncompliance = \"{compliance} m^3/Pa\"\n\
+             distal_resistance = \"{distal} Pa s/m^3\"\nperiodic_start = true\n"
+            )
+            .expect("a string can be written to");
+        }
+        write!(text, "[run]\nperiod = \"{} s\"\ncycles = {beats}\n", self.period)
+            .expect("a string can be written to");
+        text
+    }
+}
+
 const MMHG: f64 = 133.322;
 
 fn run(spec: &Spec) -> Option<Outcome> {
     let data = data()?;
     let mut outcome = Outcome::new();
-    let (near, profile, waveform) = spec.inlet;
-    let mut text = format!(
-        "[geometry]\nsurface = {:?}\nunit = \"{}\"\n[particles]\nspacing = \"{} m\"\n\
-         [blood]\ndensity = \"1060 kg/m^3\"\nviscosity = \"3.5 mPa s\"\n\
-         [[opening]]\nname = \"inlet\"\nnear = {near:?}\ncondition = \"velocity\"\nprofile = \"{profile}\"\nwaveform = {:?}\n",
-        data.join(spec.surface),
-        spec.unit,
-        spec.spacing,
-        data.join(waveform),
-    );
-    for (name, near, [proximal, compliance, distal]) in spec.outlets {
-        write!(
-            text,
-            "[[opening]]\nname = \"{name}\"\nnear = {near:?}\ncondition = \"windkessel\"\n\
-             proximal_resistance = \"{proximal} Pa s/m^3\"\ncompliance = \"{compliance} m^3/Pa\"\n\
-             distal_resistance = \"{distal} Pa s/m^3\"\nperiodic_start = true\n"
-        )
-        .expect("a string can be written to");
-    }
-    write!(text, "[run]\nperiod = \"{} s\"\ncycles = 2\n", spec.period).expect("a string can be written to");
+    let text = spec.text(&data, 2.0);
     let folder = tempfile::tempdir().expect("a temporary folder can be had");
     let file = folder.path().join("case.toml");
     std::fs::write(&file, text).expect("a temporary file can be written");
