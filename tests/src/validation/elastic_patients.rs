@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use vaso_coupling::ShellWall;
-use vaso_driver::{Case as Setup, Flow, Plan, world};
+use vaso_driver::{Flow, world};
 
 use super::measure::Flown;
-use super::patients::{AORTA_SPEC, CAROTID_SPEC, Spec};
+use super::patients::{AORTA_SPEC, CAROTID_SPEC, Spec, prepare};
 use super::{Case, Outcome, Tolerance, Unit};
-use crate::{cache, data};
+use crate::data;
 
 /// The carotid.
 pub const CAROTID: Case = Case {
@@ -79,13 +79,7 @@ fn run(spec: &Spec, wall: &WallSpec) -> Option<Outcome> {
         wall.thickness,
         wall.young
     );
-    let folder = tempfile::tempdir().expect("a temporary folder can be had");
-    let file = folder.path().join("case.toml");
-    std::fs::write(&file, text).expect("a temporary file can be written");
-    let mut setup = Setup::load(&file, &[]).unwrap_or_else(|e| panic!("{e}"));
-    setup.cache = Some(cache());
-    let plan = Plan::new(&setup).unwrap_or_else(|e| panic!("{e}"));
-    let bodies = world::Bodies::make(&setup, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
+    let (setup, plan, bodies) = prepare(&text);
     let mut flow: ShellFlow = world::build_flow_in(&setup, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
 
     let stretch = Stretch::new(&flow, wall);

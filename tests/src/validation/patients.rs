@@ -89,6 +89,18 @@ pub(super) const AORTA_SPEC: Spec = Spec {
     balance: Tolerance::Held(0.01),
 };
 
+/// The case of that text, planned, with its particles.
+pub(super) fn prepare(text: &str) -> (Setup, Plan, world::Bodies) {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    let file = folder.path().join("case.toml");
+    std::fs::write(&file, text).expect("a temporary file can be written");
+    let mut setup = Setup::load(&file, &[]).unwrap_or_else(|e| panic!("{e}"));
+    setup.cache = Some(cache());
+    let plan = Plan::new(&setup).unwrap_or_else(|e| panic!("{e}"));
+    let bodies = world::Bodies::make(&setup, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
+    (setup, plan, bodies)
+}
+
 impl Spec {
     /// The case of this many beats, but for the wall.
     pub(super) fn text(&self, data: &Path, beats: f64) -> String {
@@ -123,13 +135,7 @@ fn run(spec: &Spec) -> Option<Outcome> {
     let data = data()?;
     let mut outcome = Outcome::new();
     let text = spec.text(&data, 2.0);
-    let folder = tempfile::tempdir().expect("a temporary folder can be had");
-    let file = folder.path().join("case.toml");
-    std::fs::write(&file, text).expect("a temporary file can be written");
-    let mut setup = Setup::load(&file, &[]).unwrap_or_else(|e| panic!("{e}"));
-    setup.cache = Some(cache());
-    let plan = Plan::new(&setup).unwrap_or_else(|e| panic!("{e}"));
-    let bodies = world::Bodies::make(&setup, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
+    let (setup, plan, bodies) = prepare(&text);
     let mut flow = world::build_flow::<f32>(&setup, &plan, bodies).unwrap_or_else(|e| panic!("{e}"));
 
     let place = |name: &str| plan.openings.iter().position(|o| o.name == name).expect("it is in the case");
