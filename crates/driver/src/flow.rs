@@ -109,6 +109,15 @@ pub struct Flow<R, W = Solid<R>> {
 /// Mach number at which a run stops, unless it is allowed.
 const MAX_MACH: f64 = 0.2;
 
+/// The longest step of no more than `most` that goes into what is `left`, all in seconds.
+///
+/// What is left over in the end would be a step of its own, of any length. Walls take the rate of their strain, which they know to single
+/// precision, from its change in a step: after one that is too short they are damped by rounding errors, and with all the weight of the
+/// next step.
+fn evenly(left: f64, most: f64) -> f64 {
+    left / (left / most).ceil().max(1.0)
+}
+
 impl<R: Real, W: MovingWall> Flow<R, W> {
     /// Flow that starts from the state of `fluid`, in a rigid wall.
     pub fn new(mut fluid: Fluid<R>, mut openings: Openings, allow_mach: bool) -> Self {
@@ -204,11 +213,12 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         }
         ledger.time(Stage::Viscosity, || fluid.offsets());
         let full = fluid.advective_step();
-        let duration = full.min(until - self.time);
+        let ahead = until - self.time;
+        let duration = if ahead < 2.0 * full { evenly(ahead, full) } else { full };
         let reach = fluid.numbers().reach();
 
         let (mut elapsed, mut travelled) = (0.0, 0.0);
-        let mut dt = fluid.numbers().acoustic_step(fluid.top_speed()).min(duration);
+        let mut dt = evenly(duration, fluid.numbers().acoustic_step(fluid.top_speed()));
         ledger.time(Stage::Momentum, || fluid.begin_acoustic(dt));
         loop {
             ledger.time(Stage::WallPressure, || fluid.wall_pressure());
@@ -229,7 +239,7 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
             let left = duration - elapsed;
             let top = inner.max(near);
             travelled += dt * top;
-            let next = fluid.numbers().acoustic_step(top).min(left);
+            let next = evenly(left, fluid.numbers().acoustic_step(top));
             // What has sped up meanwhile goes no further with the neighbours it has than what was fast before.
             let goes_on = left > 1e-9 * duration && travelled < reach;
             ledger.time(Stage::Continuity, || fluid.continuity(dt, goes_on.then_some(next)));
