@@ -45,7 +45,7 @@ A run that is finished stays as it is.";
 
 pub(crate) const STUDY: &str = "\
 Examples:
-  vaso study my-case --out study
+  vaso study my-case
   vaso study my-case --out spacings --ladders spacing --spacings \"1.2 mm,0.9 mm\"
   vaso study my-case --out smoothing --ladders spacing --vary \"numerics.smoothing_length=1.2|1.4\"
   vaso study my-case --out finest --budget \"20 s\"

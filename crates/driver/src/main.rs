@@ -70,7 +70,8 @@ fn execute(command: Command) -> Result<(), DriverError> {
         Command::Study(flags) => {
             let common = &flags.common;
             let case = Case::load(&common.case, &common.set)?;
-            let out = out_folder(common, &case);
+            // Where the report of a run of the case looks for it.
+            let out = common.out.clone().unwrap_or_else(|| case.scene.directory.join("study"));
             let stop = stop_on_interrupt();
             let report = study::study(&case, &flags.request(), &out, flags.force, &stop, &talk(common))?;
             if common.json { put(report.to_json() + "\n") } else { Ok(()) }

@@ -57,6 +57,24 @@ fn report(folder: &Path) -> StudyReport {
     StudyReport::read(&folder.join("study/study.json")).expect("a study leaves its JSON")
 }
 
+/// The report of a run between two rungs says how far off it is, and not so once the case is another.
+fn run_knows_its_study(folder: &Path) {
+    let page = |settings: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_vaso"));
+        command.arg("run").arg(folder).arg("--force");
+        settings.iter().for_each(|s| {
+            command.args(["--set", s]);
+        });
+        let output = command.output().expect("the program can be started");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read_to_string(folder.join("out/report.html")).expect("a run leaves its page")
+    };
+    let same = page(&["particles.spacing=1.1 mm"]);
+    assert!(same.contains("How far off") && same.contains("Errors expected at a spacing of 1.1 mm"));
+    let other = page(&["particles.spacing=1.1 mm", "blood.viscosity=4 mPa s"]);
+    assert!(other.contains("tells nothing of it: <code>blood</code> of the case said something else"));
+}
+
 #[test]
 fn a_study_runs_its_ladders_and_tells_errors_and_prices() {
     let folder = tempfile::tempdir().expect("a temporary folder can be had");
@@ -74,6 +92,7 @@ fn a_study_runs_its_ladders_and_tells_errors_and_prices() {
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{told}");
     let report = report(folder.path());
+    run_knows_its_study(folder.path());
     let names: Vec<(&str, StudyStatus)> = report.runs.iter().map(|r| (r.name.as_str(), r.status)).collect();
     // A pipe three millimetres in radius has no ring of particles five millimetres apart; the slow sound breaks at the inlet's
     // velocity. Both are findings, and the rest goes on.

@@ -11,6 +11,9 @@ pub struct StudyReport {
     pub vaso_version: String,
     /// Title of the case.
     pub case: String,
+    /// Tables of the case, and its surface, with digests of what they say at any spacing: as in [`Summary`](crate::Summary).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub identity: Vec<[String; 2]>,
     /// Worker threads of every run.
     pub threads: u64,
     /// What errors are counted from, in words.

@@ -20,6 +20,10 @@ pub struct Summary {
     pub status: Status,
     /// Title of the case.
     pub case: String,
+    /// Tables of the case, and its surface, with digests of what they say at any spacing: by them a study is known to be of the
+    /// same case.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub identity: Vec<[String; 2]>,
     /// What went wrong, if anything did.
     pub message: Option<String>,
     /// Simulated time reached \[s\].

@@ -1,16 +1,17 @@
 //! What a run does not prove, said next to its results.
 
+use crate::accuracy::Accuracy;
 use crate::html::prose;
 use vaso_io::{EffectEntry, EndReason, PressureDropSummary, Status, Summary};
 
 /// The list of limits, those that always hold and those this run brought on itself.
-pub(crate) fn limits(summary: &Summary) -> String {
+pub(crate) fn limits(summary: &Summary, accuracy: &Accuracy) -> String {
     let items: Vec<String> =
-        limits_of(summary).iter().map(|limit| format!("<li>{}</li>", prose(limit))).collect();
+        limits_of(summary, accuracy).iter().map(|limit| format!("<li>{}</li>", prose(limit))).collect();
     format!("<ul class=\"limits\">{}</ul>\n", items.concat())
 }
 
-fn limits_of(summary: &Summary) -> Vec<String> {
+fn limits_of(summary: &Summary, accuracy: &Accuracy) -> Vec<String> {
     let mut limits = Vec::new();
     if summary.status != Status::Completed {
         limits.push(format!(
@@ -18,11 +19,15 @@ fn limits_of(summary: &Summary) -> Vec<String> {
             summary.status
         ));
     }
-    limits.push(
-        "One spacing is one point: this page says nothing about what a finer spacing would change. \
-         `vaso study` measures that."
-            .to_owned(),
-    );
+    let one_spacing = match accuracy {
+        Accuracy::Studied(_) => {
+            "One spacing is one point: what a finer one would change is known from the study alone, and for the quantities in it."
+        }
+        Accuracy::Unknown | Accuracy::Other(_) => {
+            "One spacing is one point: this page says nothing about what a finer spacing would change. `vaso study` measures that."
+        }
+    };
+    limits.push(one_spacing.to_owned());
     limits.push(format!(
         "Blood is treated as weakly compressible with a sound speed of {} m/s, far below the real one. Pressure waves in \
          the fluid are therefore slow; speeds well below it are what the method is made for.",
@@ -131,13 +136,13 @@ mod tests {
             ..Default::default()
         };
         let mut summary = Summary { status: Status::Failed, effects: vec![shell], ..Default::default() };
-        let text = limits_of(&summary).join("\n");
+        let text = limits_of(&summary, &Accuracy::Unknown).join("\n");
         assert!(text.contains("failed") && text.contains("`wall.shell` is off"), "{text}");
         assert!(text.contains("wall does not move"), "{text}");
 
         summary.status = Status::Completed;
         summary.effects[0].on = true;
-        let text = limits_of(&summary).join("\n");
+        let text = limits_of(&summary, &Accuracy::Unknown).join("\n");
         assert!(!text.contains("wall does not move") && !text.contains("is off"), "{text}");
     }
 }

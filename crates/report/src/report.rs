@@ -1,6 +1,7 @@
 //! The page as a whole.
 
 use crate::ReportError;
+use crate::accuracy::Accuracy;
 use crate::chart::{Curve, chart};
 use crate::html::{self, escape, prose, section};
 use crate::{cycles, limits, sections, vessel, viewer, wall};
@@ -27,6 +28,7 @@ pub fn write_report(out_dir: &Path) -> Result<PathBuf, ReportError> {
 
 fn page(out: &Path, summary: &Summary) -> String {
     let before = sections::head(summary);
+    let accuracy = Accuracy::of(out, summary);
     let pictures = vessel::figures(out, summary.spacing_m);
     let after = [
         section(
@@ -37,9 +39,10 @@ fn page(out: &Path, summary: &Summary) -> String {
         section("cycles", "Cycles", &cycles::cycles(summary)),
         section("wall", "The wall", &wall::wall(out, summary)),
         section("stability", "Stability", &(sections::stability(summary) + &cycles::energy(summary))),
+        section("accuracy", "How far off", &accuracy.section(summary)),
         section("cost", "Plan and cost", &sections::effects(summary)),
         section("scene", "Scene", &sections::scene(summary)),
-        section("limits", "What this does not prove", &limits::limits(summary)),
+        section("limits", "What this does not prove", &limits::limits(summary, &accuracy)),
     ]
     .concat();
     // The viewer takes what the rest has left.

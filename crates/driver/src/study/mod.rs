@@ -2,6 +2,7 @@
 
 mod analysis;
 mod goal;
+pub(crate) mod identity;
 mod ladder;
 mod measure;
 mod table;
@@ -66,6 +67,7 @@ pub fn study(
     let mut report = StudyReport {
         vaso_version: env!("CARGO_PKG_VERSION").into(),
         case: case.scene.title.clone(),
+        identity: identity::identity(case),
         threads: rayon::current_num_threads() as u64,
         reference: reference(&expected),
         judged_by: judged_by.clone(),
