@@ -9,6 +9,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Store, sweep};
 
+/// Share of the pressure jump of the Riemann state that density diffuses by.
+///
+/// All of it takes away the highest frequency of the density by 1.9 times what there is in a step, on a lattice and at a
+/// Courant number of 0.6: it rings, and where particles are crowded by a few per cent it grows, above 2. Half of it
+/// takes that frequency away in one step.
+const DIFFUSION: f64 = 0.5;
+
 impl<R: Real> Fluid<R> {
     /// Advective step \[s\] the fluid asks for now.
     pub fn advective_step(&self) -> f64 {
@@ -158,7 +165,7 @@ impl<R: Real> Fluid<R> {
                     let v = velocity[k] + dt * acceleration;
                     velocity[k] = v;
                     position[k] += 0.5 * dt * v;
-                    rate[k] = -gradient * rho / impedance * f[6];
+                    rate[k] = -DIFFUSION * gradient * rho / impedance * f[6];
                     next[k] = current.as_slice()[i];
                     next[k][4] = R::pack(v.x);
                     next[k][5] = R::pack(v.y);
