@@ -68,8 +68,12 @@ mod tests {
             assert_eq!(a.surface.triangles.len(), b.surface.triangles.len(), "{}", made.file);
             let difference = (a.surface.volume() / b.surface.volume() - 1.0).abs();
             assert!(difference < 1e-5, "{}: volumes differ by {difference:e}", made.file);
-            for (x, y) in a.openings.iter().zip(&b.openings) {
-                assert!(x.center.distance(y.center) < 1e-7 && (x.area / y.area - 1.0).abs() < 1e-4);
+            assert_eq!(a.openings.len(), b.openings.len(), "{}", made.file);
+            // Openings come by their size, and those of a pipe are equal but for rounding.
+            for x in &a.openings {
+                let same = b.openings.iter().find(|y| x.center.distance(y.center) < 1e-7);
+                let same = same.unwrap_or_else(|| panic!("{}: no opening at {}", made.file, x.center));
+                assert!((x.area / same.area - 1.0).abs() < 1e-4, "{}", made.file);
             }
         }
     }
