@@ -1,4 +1,4 @@
-//! Writes the surfaces of the shipped cases: `cargo run -p vaso-cases`.
+//! Writes surfaces and waveforms of the shipped cases: `cargo run -p vaso-cases`.
 
 use std::path::Path;
 use std::process::ExitCode;

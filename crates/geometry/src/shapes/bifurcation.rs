@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use super::{
     even::even_out,
+    implicit::Implicit,
     junction::{Branch, Junction},
     rings::{add_vertices, fill_disc, stitch_alternating},
 };

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::junction::Junction;
+use super::implicit::Implicit;
 use crate::{repair::flip::Flips, surface::Surface};
 
 /// Rounds of exchanging and moving, and the passes of each.
@@ -15,10 +15,10 @@ const SMOOTHING_PASSES: usize = 6;
 
 /// Makes the triangles of the wall as even as their number around the branches allows; the vertices in `fixed`
 /// stay where they are.
-pub(super) fn even_out(junction: &Junction, fixed: &[u32], surface: &mut Surface) {
+pub(super) fn even_out(wall: &impl Implicit, fixed: &[u32], surface: &mut Surface) {
     for _ in 0..ROUNDS {
         flip_to_delaunay(surface);
-        smooth(junction, fixed, surface);
+        smooth(wall, fixed, surface);
     }
     flip_to_delaunay(surface);
 }
@@ -47,7 +47,7 @@ fn flip_to_delaunay(surface: &mut Surface) {
 }
 
 /// Moves the vertices towards the middle of their neighbours, staying on the wall; those in `fixed` stay put.
-fn smooth(junction: &Junction, fixed: &[u32], surface: &mut Surface) {
+fn smooth(wall: &impl Implicit, fixed: &[u32], surface: &mut Surface) {
     let n = surface.vertices.len();
     let mut is_fixed = vec![false; n];
     fixed.iter().for_each(|&v| is_fixed[v as usize] = true);
@@ -67,7 +67,7 @@ fn smooth(junction: &Junction, fixed: &[u32], surface: &mut Surface) {
                     return here;
                 }
                 let around: DVec3 = neighbours[v].iter().map(|&w| surface.vertices[w as usize]).sum();
-                junction.project(here.lerp(around / neighbours[v].len() as f64, 0.5))
+                wall.project(here.lerp(around / neighbours[v].len() as f64, 0.5))
             })
             .collect();
     }

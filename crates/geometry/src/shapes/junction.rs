@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-/// Bound on the steps of [`Junction::project`]; two or three are enough off the creases.
-const MAX_NEWTON_STEPS: usize = 6;
+use super::implicit::{Implicit, union};
 
 /// A branch: a tube about a straight axis from the crossing outwards.
 pub(super) struct Branch {
@@ -47,23 +46,19 @@ pub(super) struct Junction {
     pub(super) blend: f64,
 }
 
-impl Junction {
-    /// Implicit surface of the union: zero on it, negative inside.
-    pub(super) fn field(&self, x: DVec3) -> f64 {
+impl Implicit for Junction {
+    fn field(&self, x: DVec3) -> f64 {
         let [a, b, c] = [0, 1, 2].map(|k| self.branches[k].distance(x));
-        self.union(a, b).min(self.union(b, c)).min(self.union(c, a))
+        let pair = |a, b| union(self.blend, a, b);
+        pair(a, b).min(pair(b, c)).min(pair(c, a))
     }
 
-    /// Minimum of two distances (with their gradients), rounded off where they are closer than the blend.
-    ///
-    /// The blend shrinks with the angle between the walls: side by side, where two tubes run into each other,
-    /// rounding would only swell the surface.
-    fn union(&self, (a, outward_a): (f64, DVec3), (b, outward_b): (f64, DVec3)) -> f64 {
-        let blend = 0.5 * (1.0 - outward_a.dot(outward_b)) * self.blend;
-        let overlap = if blend > 0.0 { (1.0 - (a - b).abs() / blend).max(0.0) } else { 0.0 };
-        a.min(b) - 0.25 * blend * overlap * overlap
+    fn scale(&self) -> f64 {
+        self.blend
     }
+}
 
+impl Junction {
     /// The wall point on the ray from a point inside.
     pub(super) fn hit(&self, origin: DVec3, direction: DVec3) -> DVec3 {
         // The field has slope about one, so going by its value never jumps across a wall.
@@ -82,21 +77,5 @@ impl Junction {
             if self.field(origin + middle * direction) < 0.0 { low = middle } else { high = middle }
         }
         origin + 0.5 * (low + high) * direction
-    }
-
-    /// The wall point nearest to a point close to the wall, by Newton steps along the gradient.
-    pub(super) fn project(&self, mut x: DVec3) -> DVec3 {
-        let step = 1e-5 * self.blend;
-        for _ in 0..MAX_NEWTON_STEPS {
-            let value = self.field(x);
-            if value.abs() < 1e-9 * self.blend {
-                break;
-            }
-            let slope =
-                DVec3::AXES.map(|e| (self.field(x + step * e) - self.field(x - step * e)) / (2.0 * step));
-            let gradient = DVec3::from(slope);
-            x -= value / gradient.length_squared().max(0.25) * gradient;
-        }
-        x
     }
 }
