@@ -12,7 +12,7 @@ pub(crate) enum Accuracy {
     /// There is one, but not of this case: why.
     Other(String),
     /// There is one of this case.
-    Studied(StudyReport),
+    Studied(Box<StudyReport>),
 }
 
 /// Way from the folder of a run to the study of its case, where both lie where they do by default.
@@ -31,7 +31,7 @@ impl Accuracy {
             Err(error) => Self::Other(error.to_string()),
             Ok(study) => match difference(&study.identity, &summary.identity) {
                 Some(what) => Self::Other(what),
-                None => Self::Studied(study),
+                None => Self::Studied(Box::new(study)),
             },
         }
     }
