@@ -7,6 +7,7 @@ use crate::flow::Flow;
 use crate::ledger::Stage;
 use crate::observe::Observers;
 use crate::plan::Plan;
+use crate::study::identity::identity;
 use frames::interpolate;
 use glam::DVec3;
 use std::path::PathBuf;
@@ -109,6 +110,8 @@ pub struct Results<F> {
     late: Means,
     late_start: Option<(f64, Vec<f64>)>,
     last_time: f64,
+    /// What the case says, taken at the start: the file may be edited while a run goes on.
+    identity: Vec<[String; 2]>,
     /// What is read off the flow.
     pub observers: Observers,
 }
@@ -160,6 +163,7 @@ impl<F> Results<F> {
             late: Means::new(n),
             late_start: None,
             last_time: 0.0,
+            identity: identity(case),
             observers,
         })
     }
@@ -180,6 +184,8 @@ impl<F> Results<F> {
             late,
             late_start,
             last_time,
+            // Of the case, which a run that goes on has found unchanged.
+            identity: _,
             observers,
         } = self;
         if let Some(wall) = wall {

@@ -7,7 +7,6 @@ use crate::deforming::Deforming;
 use crate::flow::Flow;
 use crate::ledger::Stage;
 use crate::plan::Plan;
-use crate::study::identity::identity;
 use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::{
@@ -40,7 +39,7 @@ impl<F> Results<F> {
             vaso_version: env!("CARGO_PKG_VERSION").into(),
             status: Status::Completed,
             case: case.scene.title.clone(),
-            identity: identity(case),
+            identity: self.identity.clone(),
             message: None,
             time_s: flow.time,
             wall_clock_s: wall_clock,
