@@ -31,7 +31,7 @@ pub const AORTA: Case = Case {
     setup: "As the rigid aorta, its wall a shell of 2.5 mm, 0.75 MPa, Poisson ratio 0.49 and 1060 kg/m^3, unloaded at 10 kPa, clamped: one beat \
             at 1.2 mm.",
     reference: "As for the carotid, with a stretch of the descending aorta of 30 mm.",
-    remark: "Nothing holds the aorta but its ends: it swings by 0.15 mm to a side, which a mean around it does not see. Between the branches \
+    remark: "Nothing holds the aorta but its ends: under a third of this inflow it swung by 0.15 mm to a side, which a mean around it does not see. Between the branches \
              of the arch the wall is thinner than asked for, as there is no room.",
     quick: None,
     full: || run(&AORTA_SPEC, &AORTA_WALL),
