@@ -40,7 +40,7 @@ fn laws<R: Real>(criterion: &mut Criterion, cube: &Cube) {
         own_second: Some(&matrices),
         other_second: Some(&matrices),
     };
-    let law = pressure::FluidPressure { limiter: 100.0, sound_speed: 1.0, rest_density: 1000.0 };
+    let law = pressure::FluidPressure::<false> { limiter: 4.0, sound_speed: 1.0, rest_density: 1000.0 };
     for isa in Isa::available() {
         let rows = cube.rows(isa);
         let mut offsets = PairStore::default();

@@ -41,8 +41,8 @@ impl<R: Real> Fluid<R> {
         let frozen = &self.frozen;
         self.second.fill(|i| {
             let [x, y, z] = frozen[i].wall_normal.to_array().map(R::pack);
-            let zero = R::pack(0.0);
-            [x, y, z, zero, zero, zero, zero, zero]
+            let (zero, near_cap) = (R::pack(0.0), R::pack(f64::from(frozen[i].cap_depth < FAR)));
+            [x, y, z, near_cap, zero, zero, zero, zero]
         });
         let numbers = self.numbers;
         let state = &mut self.state;
@@ -106,15 +106,14 @@ impl<R: Real> Fluid<R> {
         let rho0 = numbers.rest_density;
         let impedance = rho0 * numbers.sound_speed;
         let gradient = self.kernel.gradient_scale();
-        let law = FluidPressure {
-            limiter: numbers.dissipation_limiter,
-            sound_speed: numbers.sound_speed,
-            rest_density: rho0,
-        };
+        let (limiter, sound_speed) = (numbers.dissipation_limiter, numbers.sound_speed);
+        let law = FluidPressure::<false> { limiter, sound_speed, rest_density: rho0 };
+        let beside_cap = FluidPressure::<true> { limiter, sound_speed, rest_density: rho0 };
         let (isa, frame) = (self.isa, &self.frame);
         let (current, wall) = (&self.current, &self.wall);
+        let second = Some(&self.second);
         let fluid_gather =
-            Gather { frame, own: current, other: current, own_second: None, other_second: None };
+            Gather { frame, own: current, other: current, own_second: second, other_second: second };
         let wall_gather =
             Gather { frame, own: current, other: &wall.dynamic, own_second: None, other_second: None };
         let state = &mut self.state;
@@ -136,7 +135,12 @@ impl<R: Real> Fluid<R> {
             .map(|(c, (velocity, position, rate, mean, next, frozen, row, wall_row, offsets))| {
                 let mut fluid = [[0.0; pressure::FLUID_SUMS]; CHUNK];
                 let mut walls = [[0.0; pressure::WALL_SUMS]; CHUNK];
-                sweep(isa, &law, &fluid_gather, numbered(row, c), Store::Read(offsets), &mut fluid);
+                let (numbered_row, stored) = (numbered(row, c), Store::Read(offsets));
+                if frozen.iter().any(|f| f.cap_depth < FAR) {
+                    sweep(isa, &beside_cap, &fluid_gather, numbered_row, stored, &mut fluid);
+                } else {
+                    sweep(isa, &law, &fluid_gather, numbered_row, stored, &mut fluid);
+                }
                 if !wall_row.has_no_pairs() {
                     sweep(
                         isa,

@@ -5,6 +5,7 @@
 
 use crate::fluid::{Fluid, Frozen, first_of, numbered};
 use crate::law::moving::{self, AcceleratedWallPressure, SurfaceDisplacement, WallVelocity};
+use crate::law::pressure::FULL;
 use crate::numbers::Numbers;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -64,7 +65,7 @@ impl Wall for AtRest {
         let impedance = numbers.rest_density * numbers.sound_speed;
         // Closing speed of the particle and its mirror image behind the wall.
         let closing = (-2.0 * v.dot(frozen.wall_normal)).max(0.0);
-        let limited = (numbers.dissipation_limiter * closing / numbers.sound_speed).min(1.0);
+        let limited = (FULL * closing / numbers.sound_speed).min(1.0);
         frozen.wall_area * limited * impedance * closing * frozen.wall_normal
     }
 
@@ -104,7 +105,7 @@ impl<R: Real> Wall for Moving<R> {
 /// \[m/s\]. As a pressure it has a pair for each wall particle, so that the wall gets back what it gives.
 pub(crate) fn closing_pressure(relative: DVec3, frozen: &Frozen, numbers: &Numbers) -> f64 {
     let closing = (-2.0 * relative.dot(frozen.wall_normal)).max(0.0);
-    let limited = (numbers.dissipation_limiter * closing / numbers.sound_speed).min(1.0);
+    let limited = (FULL * closing / numbers.sound_speed).min(1.0);
     limited * numbers.rest_density * numbers.sound_speed * closing
 }
 

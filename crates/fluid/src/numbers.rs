@@ -25,8 +25,8 @@ pub struct Numbers {
     pub density_blend: f64,
     /// Where walls are at rest, the mean density follows the mass in the vessel instead of the kernel sum.
     pub hold_mass: bool,
-    /// Limiter of the velocity-jump dissipation (Zhang, Hu and Adams 2017); at 100 it is in effect the full acoustic jump. That rounds
-    /// profiles in a narrowing; with 3 the outlets ring (`docs/limits.md`).
+    /// Limiter of the velocity-jump dissipation (Zhang, Hu and Adams 2017) between fluid particles away from caps. Walls and caps have in
+    /// effect the full acoustic jump, as sound comes back from them.
     pub dissipation_limiter: f64,
     /// Strength of the transport-velocity shift a step.
     pub shift_strength: f64,
@@ -43,7 +43,7 @@ const VISCOUS: f64 = 0.125;
 
 impl Numbers {
     /// Defaults for blood of given density, viscosity and top speed at a spacing: c = 10 times the
-    /// speed, h = 1.3 dp, density blend 0.03, limiter 100, shift 0.2 within 0.05 dp.
+    /// speed, h = 1.3 dp, density blend 0.03, limiter 4, shift 0.2 within 0.05 dp.
     pub fn new(rest_density: f64, viscosity: f64, reference_speed: f64, spacing: f64) -> Self {
         Self {
             rest_density,
@@ -55,7 +55,7 @@ impl Numbers {
             smoothing_length: 1.3 * spacing,
             density_blend: 0.03,
             hold_mass: false,
-            dissipation_limiter: 100.0,
+            dissipation_limiter: 4.0,
             shift_strength: 0.2,
             shift_limit: 0.05,
         }

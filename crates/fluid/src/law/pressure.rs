@@ -14,8 +14,11 @@ pub const WALL_SUMS: usize = 3;
 /// Sums `[0..3]` of `V u^3 p_j d`, `[3..6]` of `V u^3 q d` with the dissipative pressure
 /// `q = min(eta a / c, 1) rho0 c a` of the approach velocity `a`, and `[6]` of
 /// `V u^3 r (p_i - p_j)`, the density diffusion.
-pub struct FluidPressure {
-    /// Limiter `eta` of the dissipation.
+///
+/// `BESIDE_CAP` is for chunks with particles near caps, whose mark stands at [`CAP_MARK`] in the second record: a pair of two of them has the
+/// limiter [`FULL`]. Where there are none the result is the same, and the second records need not be read.
+pub struct FluidPressure<const BESIDE_CAP: bool> {
+    /// Limiter `eta` of the dissipation away from caps.
     pub limiter: f64,
     /// Sound speed \[m/s\].
     pub sound_speed: f64,
@@ -23,20 +26,29 @@ pub struct FluidPressure {
     pub rest_density: f64,
 }
 
+/// Limiter with which nearly all of the acoustic jump is dissipated: at caps and walls, which sound comes back from.
+pub const FULL: f64 = 100.0;
+
+/// Where the second record of a particle has 1 near a cap, and 0 elsewhere.
+pub const CAP_MARK: usize = 3;
+
 /// Constants of [`FluidPressure`] in lanes.
 #[derive(Clone, Copy)]
 pub struct Dissipation<L> {
     limiter_over_speed: L,
+    more_at_caps: L,
     impedance: L,
 }
 
-impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidPressure {
+impl<R: Real, const BESIDE_CAP: bool> PairLaw<R, FLUID_SUMS> for FluidPressure<BESIDE_CAP> {
     type Constants<L: Lanes<Elem = R>> = Dissipation<L>;
     const STORED: Stored = Stored::Read;
+    const SECOND: bool = BESIDE_CAP;
 
     fn constants<L: Lanes<Elem = R>>(&self) -> Dissipation<L> {
         Dissipation {
             limiter_over_speed: L::constant(self.limiter / self.sound_speed),
+            more_at_caps: L::constant((FULL - self.limiter) / self.sound_speed),
             impedance: L::constant(self.rest_density * self.sound_speed),
         }
     }
@@ -49,8 +61,13 @@ impl<R: Real> PairLaw<R, FLUID_SUMS> for FluidPressure {
             own.velocity[1] - p.velocity[1],
             own.velocity[2] - p.velocity[2],
         ];
+        let limiter = if BESIDE_CAP {
+            (own.second[CAP_MARK] * p.second[CAP_MARK]).fma(c.more_at_caps, c.limiter_over_speed)
+        } else {
+            c.limiter_over_speed
+        };
         let approach = dot(dv, p.d).fnma(p.r_inv, p.stored).max(L::zero());
-        let beta = (approach * c.limiter_over_speed).min(L::constant(1.0));
+        let beta = (approach * limiter).min(L::constant(1.0));
         let dissipative = beta * approach * c.impedance;
         add_scaled(sums, 0, g * p.scalar, p.d);
         add_scaled(sums, 3, g * dissipative, p.d);
