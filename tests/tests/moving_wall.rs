@@ -87,7 +87,7 @@ fn run(across: f64, strain: f64, time: f64, end: f64) -> Squeezed {
 #[test]
 fn what_the_wall_sweeps_is_driven_out() {
     for (strain, time, end) in [(0.1, 0.1, 0.15), (-0.1, 0.1, 0.15), (0.3, 0.1, 0.15)] {
-        let s = run(10.0, strain, time, end);
+        let s = run(16.0, strain, time, end);
         println!(
             "strain {strain} in {time} s: driven {:.4} of the swept, crossed {:.4}; middle filled {:.4}; density {:.4}; escaped {}, \
              returned {}",
@@ -98,10 +98,10 @@ fn what_the_wall_sweeps_is_driven_out() {
             s.escaped,
             s.returned
         );
-        // What is short at D/10 is that of a wall which bends along its axis (docs/theory/coupling.md).
-        assert!((s.driven / s.swept - 1.0).abs() < 0.05, "{}", s.driven / s.swept);
-        // A particle more or less in each of the layers that the bounds of the middle cut through: 2 of 40 layers, half filled.
-        assert!((s.middle - 1.0).abs() < 0.025, "{}", s.middle);
+        // What is short is that of a wall which bends along its axis (docs/theory/coupling.md): 3 % at D/16, 5 % at D/10.
+        assert!((s.driven / s.swept - 1.0).abs() < 0.04, "{}", s.driven / s.swept);
+        // A particle more or less in each of the layers that the bounds of the middle cut through: 2 of 64 layers, half filled.
+        assert!((s.middle - 1.0).abs() < 0.02, "{}", s.middle);
         // A layer a cap is what the count of crossings is good for.
         assert!((s.crossed - s.swept).abs() < 2.0 * s.layer, "{} {}", s.crossed, s.swept);
         assert_eq!(s.escaped, 0);

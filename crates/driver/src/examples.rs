@@ -62,7 +62,8 @@ The tables printed take the place of the outlets in the case. The inflow has to 
 
 pub(crate) const REPORT: &str = "\
 Examples:
-  vaso report my-case/out";
+  vaso report my-case/out
+  vaso report my-case/out --against coarse     Beside another run: what a wall takes off the pulse";
 
 pub(crate) const SCHEMA: &str = "\
 Examples:

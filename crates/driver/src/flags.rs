@@ -72,6 +72,9 @@ pub(crate) enum Command {
     Report {
         /// Output folder of a run or of a study.
         out: PathBuf,
+        /// Output folder of another run of the vessel, with whose pressures those of this one are compared: of a rigid wall, say.
+        #[arg(long, value_name = "OTHER")]
+        against: Option<PathBuf>,
     },
     /// The JSON Schema of case.toml, by which editors complete and check it.
     #[command(after_help = examples::SCHEMA)]

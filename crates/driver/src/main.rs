@@ -80,11 +80,12 @@ fn execute(command: Command) -> Result<(), DriverError> {
             let case = Case::load(&flags.common.case, &flags.common.set)?;
             put(tune::tune(&case, &flags.request())?)
         }
-        Command::Report { out } => {
+        Command::Report { out, against } => {
             let study = out.join("study.json");
-            let file = match study.exists() {
-                true => vaso_report::write_study(&out, &StudyReport::read(&study)?)?,
-                false => vaso_report::write_report(&out)?,
+            let file = match against {
+                Some(other) => vaso_report::write_report_against(&out, &other)?,
+                None if study.exists() => vaso_report::write_study(&out, &StudyReport::read(&study)?)?,
+                None => vaso_report::write_report(&out)?,
             };
             put(format!("{}\n", file.display()))
         }

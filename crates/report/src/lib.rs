@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod accuracy;
+mod against;
 mod chart;
 mod color;
 mod compare;
@@ -23,5 +24,5 @@ pub use compare::{ComparedParticles, slab, write_comparison};
 pub use drawing::{Drawing, Pen, Plane, sheet};
 pub use error::ReportError;
 pub use picture::render_vessel_png;
-pub use report::write_report;
+pub use report::{write_report, write_report_against};
 pub use study::{work_precision, write_study};

@@ -4,7 +4,7 @@ use crate::ReportError;
 use crate::accuracy::Accuracy;
 use crate::chart::{Curve, chart};
 use crate::html::{self, escape, prose, section};
-use crate::{cycles, limits, sections, vessel, viewer, wall};
+use crate::{against, cycles, limits, sections, vessel, viewer, wall};
 use std::path::{Path, PathBuf};
 use vaso_io::{Summary, TableData, read_table, write_whole};
 
@@ -21,12 +21,26 @@ const MOST_BYTES: usize = 15_000_000;
 /// [`ReportError::Io`] when `summary.json` cannot be read or the page cannot be written.
 pub fn write_report(out_dir: &Path) -> Result<PathBuf, ReportError> {
     let summary = Summary::read(&out_dir.join("summary.json"))?;
+    write(out_dir, &summary, "")
+}
+
+/// The same with a section more: pressures beside those of another run of the vessel, whose output folder is `other`, and what became of the pulse.
+///
+/// # Errors
+/// Those of [`write_report`], and [`ReportError::Io`] when `summary.json` of the other run or `openings.csv` of either cannot be read.
+pub fn write_report_against(out_dir: &Path, other: &Path) -> Result<PathBuf, ReportError> {
+    let summary = Summary::read(&out_dir.join("summary.json"))?;
+    let against = against::against(out_dir, &summary, other)?;
+    write(out_dir, &summary, &against)
+}
+
+fn write(out_dir: &Path, summary: &Summary, against: &str) -> Result<PathBuf, ReportError> {
     let path = out_dir.join("report.html");
-    write_whole(&path, page(out_dir, &summary).as_bytes())?;
+    write_whole(&path, page(out_dir, summary, against).as_bytes())?;
     Ok(path)
 }
 
-fn page(out: &Path, summary: &Summary) -> String {
+fn page(out: &Path, summary: &Summary, against: &str) -> String {
     let before = sections::head(summary);
     let accuracy = Accuracy::of(out, summary);
     let pictures = vessel::figures(out, summary.spacing_m);
@@ -37,6 +51,7 @@ fn page(out: &Path, summary: &Summary) -> String {
             &(waveforms(&out.join("openings.csv")) + &sections::openings(summary)),
         ),
         section("cycles", "Cycles", &cycles::cycles(summary)),
+        section("against", "Against another run", against),
         section("wall", "The wall", &wall::wall(out, summary)),
         section("stability", "Stability", &(sections::stability(summary) + &cycles::energy(summary))),
         section("accuracy", "How far off", &accuracy.section(summary)),

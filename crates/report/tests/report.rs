@@ -5,7 +5,7 @@ mod synthetic;
 use std::path::Path;
 use vaso_io::{Status, Summary, SurfaceField, SurfaceFrame, SurfaceMesh, SurfaceSeriesWriter};
 use vaso_report::picture::{PictureOptions, Quantity, Style, draw};
-use vaso_report::{ReportError, render_vessel_png, write_report};
+use vaso_report::{ReportError, render_vessel_png, write_report, write_report_against};
 
 fn page(out: &Path) -> String {
     std::fs::read_to_string(write_report(out).unwrap()).unwrap()
@@ -77,6 +77,32 @@ fn a_finished_run_has_every_part_and_needs_nothing_else() {
         let opened = html.matches(&format!("<{tag}>")).count() + html.matches(&format!("<{tag} ")).count();
         assert_eq!(opened, html.matches(&format!("</{tag}>")).count(), "<{tag}>");
     }
+}
+
+/// The other run has twice the pulse and no shell.
+#[test]
+fn the_pulse_is_told_against_that_of_another_run() {
+    let (out, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    synthetic::write(out.path()).unwrap();
+    synthetic::write(other.path()).unwrap();
+    let file = other.path().join("summary.json");
+    let mut summary = Summary::read(&file).unwrap();
+    summary.spacing_m *= 2.0;
+    summary.effects.iter_mut().for_each(|effect| effect.on = false);
+    summary.cycles.iter_mut().flat_map(|cycle| &mut cycle.openings).for_each(|o| o.pulse_pressure_pa *= 2.0);
+    summary.write(&file).unwrap();
+    let html = std::fs::read_to_string(write_report_against(out.path(), other.path()).unwrap()).unwrap();
+    // Flow and pressure of the run, and the pressure of each of its three openings beside that of the other.
+    assert_eq!(html.matches("class=\"chart\"").count(), 5);
+    let words = words(&html);
+    for part in ["Against another run", "50 %", "Spacings are 0.45 and 0.9 mm", "Only"] {
+        assert!(words.contains(part), "{part}: {words}");
+    }
+    assert!(!words.contains("NaN"), "{words}");
+    std::fs::remove_file(other.path().join("openings.csv")).unwrap();
+    let error = write_report_against(out.path(), other.path()).unwrap_err();
+    assert!(error.to_string().contains("openings.csv"), "{error}");
+    assert!(!page(out.path()).contains("Against another run"));
 }
 
 #[test]
