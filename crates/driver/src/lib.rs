@@ -11,6 +11,7 @@ pub mod deforming;
 pub mod error;
 pub mod estimate;
 pub mod extrusion;
+mod fibers;
 pub mod flow;
 mod kept;
 pub mod ledger;

@@ -102,9 +102,9 @@ impl Plan {
             }
             _ => scene.numerics.reference_pressure,
         };
-        let wall = PlannedWall::new(case, reference_pressure.unwrap_or(0.0))?;
-        let shell = PlannedShell::new(case, reference_pressure.unwrap_or(0.0))?;
         let flow = estimate::Flow::new(&case.vessel, &openings, density, viscosity, ramp, reference_pressure);
+        let wall = PlannedWall::new(case, reference_pressure.unwrap_or(0.0), flow.pressure_range)?;
+        let shell = PlannedShell::new(case, reference_pressure.unwrap_or(0.0))?;
         let by_speed = scene.numerics.sound_speed_factor * flow.top_speed;
         let by_pressure = (flow.pressure_range / (DENSITY_CHANGE * density)).sqrt();
         let pulse = wall.as_ref().map(|w| w.pulse).or(shell.as_ref().map(|s| s.pulse));

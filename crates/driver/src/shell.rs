@@ -201,7 +201,7 @@ fn material(wall: &ElasticWall) -> Result<Material, ShellError> {
             Material::new(young_modulus, poisson_ratio, Model::Resultant)
         }
         // Refused before.
-        SceneMaterial::Hypoelastic(_) | SceneMaterial::HolzapfelGasserOgden { .. } => {
+        SceneMaterial::Hypoelastic(_) | SceneMaterial::HolzapfelGasserOgden(_) => {
             Err(ShellError::Count { what: "material", given: 0, expected: 1 })
         }
     }

@@ -3,6 +3,7 @@
 use crate::bodies;
 use crate::case::Case;
 use crate::error::{DriverError, problem};
+use crate::fibers;
 use crate::plan::Plan;
 use crate::pulse::PulseWave;
 use glam::DVec3;
@@ -14,7 +15,8 @@ use vaso_scene::Wall;
 use vaso_scene::material::{Damping, ElasticWall, Elasticity, Ends, Material as SceneMaterial};
 
 use vaso_solid::{
-    Face, HypoElastic, Material, NeoHookean, Numbers, Particles, SaintVenantKirchhoff, Solid, SolidError,
+    Face, HolzapfelGasserOgden, HypoElastic, Material, NeoHookean, Numbers, Particles, SaintVenantKirchhoff,
+    Solid, SolidError,
 };
 
 /// A wall of several layers that will deform.
@@ -48,11 +50,15 @@ const LAYERS_TO_BEND: f64 = 8.0;
 const LATERAL: f64 = 2.0;
 
 impl PlannedWall {
-    /// The wall of a case; `None` unless it is a solid.
+    /// The wall of a case; `None` unless it is a solid. `pressure_range` \[Pa\] is how far the blood's pressure is from the reference at most.
     ///
     /// # Errors
     /// When its numbers have no meaning.
-    pub(crate) fn new(case: &Case, reference_pressure: f64) -> Result<Option<Self>, DriverError> {
+    pub(crate) fn new(
+        case: &Case,
+        reference_pressure: f64,
+        pressure_range: f64,
+    ) -> Result<Option<Self>, DriverError> {
         let scene = &case.scene;
         let (Wall::Solid(wall), Some(blood)) = (&scene.wall, &scene.blood) else { return Ok(None) };
         let wrong =
@@ -64,14 +70,15 @@ impl PlannedWall {
             Damping::Material => DAMPING,
             Damping::QuasiStatic => QUASI_STATIC_DAMPING,
         };
-        let (young, poisson) = constants(wall);
-        let stiffness = young * wall.thickness / (1.0 - poisson * poisson);
+        let carried_pressure = reference_pressure - wall.unloaded_pressure;
+        let radius = 2.0 * case.vessel.surface.volume() / case.vessel.wall_area();
+        let load = (carried_pressure + pressure_range, radius, wall.thickness);
         Ok(Some(Self {
             numbers,
             material,
             thickness: wall.thickness,
-            pulse: PulseWave::new(&case.vessel, stiffness, blood.density),
-            carried_pressure: reference_pressure - wall.unloaded_pressure,
+            pulse: PulseWave::new(&case.vessel, plane_modulus(wall, load) * wall.thickness, blood.density),
+            carried_pressure,
             implicit_impedance: implicit_impedance(wall, blood.density * scene.particles.spacing),
         }))
     }
@@ -127,7 +134,11 @@ impl PlannedWall {
         let Wall::Solid(wall) = &case.scene.wall else {
             return Err(DriverError::input("a wall that is planned as a solid is one"));
         };
-        self.solid(case, plan, wall, body).map_err(|e| {
+        let directions = match self.material {
+            Material::HolzapfelGasserOgden(_) => fibers::directions(case, body)?,
+            _ => Vec::new(),
+        };
+        self.solid(case, plan, wall, body, &directions).map_err(|e| {
             DriverError::input(problem(&case.scene, "wall", e.to_string(), "", "change its keys"))
         })
     }
@@ -138,11 +149,13 @@ impl PlannedWall {
         plan: &Plan,
         wall: &ElasticWall,
         body: &Body,
+        directions: &[[DVec3; 2]],
     ) -> Result<Solid<R>, SolidError> {
         let particles = Particles {
             position: &body.position,
             volume: &body.volume,
             depth: &body.depth,
+            directions,
             ..Particles::default()
         };
         let mut solid = Solid::new(&particles, self.material, self.numbers, plan.isa)?;
@@ -246,15 +259,14 @@ fn inner_area(vessel: &Vessel, collar: f64) -> f64 {
     vessel.wall_area() + collars.sum::<f64>()
 }
 
-/// Young's modulus \[Pa\] and Poisson's ratio at small strain.
-fn constants(wall: &ElasticWall) -> (f64, f64) {
+/// `E / (1 - nu^2)` \[Pa\] of the wall, of one with fibres under its load: pressure, radius and thickness.
+fn plane_modulus(wall: &ElasticWall, (pressure, radius, thickness): (f64, f64, f64)) -> f64 {
     match wall.material {
         SceneMaterial::NeoHookean(e)
         | SceneMaterial::SaintVenantKirchhoff(e)
-        | SceneMaterial::Hypoelastic(e) => (e.young_modulus, e.poisson_ratio),
-        // Fibres do not bear before they are stretched.
-        SceneMaterial::HolzapfelGasserOgden { matrix_modulus, poisson_ratio, .. } => {
-            (2.0 * matrix_modulus * (1.0 + poisson_ratio), poisson_ratio)
+        | SceneMaterial::Hypoelastic(e) => e.young_modulus / (1.0 - e.poisson_ratio * e.poisson_ratio),
+        SceneMaterial::HolzapfelGasserOgden(fibers) => {
+            fibers::plane_modulus(&fibers, pressure, radius, thickness)
         }
     }
 }
@@ -270,9 +282,17 @@ fn material(wall: &ElasticWall) -> Result<Material, SolidError> {
         SceneMaterial::Hypoelastic(Elasticity { young_modulus, poisson_ratio }) => {
             Material::HypoElastic(HypoElastic::new(young_modulus, poisson_ratio)?)
         }
-        // Refused before: its fibres need directions.
-        SceneMaterial::HolzapfelGasserOgden { .. } => {
-            return Err(SolidError::Count { what: "directions", given: 0, expected: 1 });
+        SceneMaterial::HolzapfelGasserOgden(f) => {
+            let bulk =
+                2.0 * f.matrix_modulus * (1.0 + f.poisson_ratio) / (3.0 * (1.0 - 2.0 * f.poisson_ratio));
+            Material::HolzapfelGasserOgden(HolzapfelGasserOgden::new(
+                f.matrix_modulus,
+                f.fiber_modulus,
+                f.fiber_exponent,
+                f.fiber_dispersion,
+                f.fiber_angle,
+                bulk,
+            )?)
         }
     })
 }

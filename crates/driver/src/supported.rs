@@ -65,20 +65,13 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
     }
     if let Wall::Solid(wall) | Wall::Shell(wall) = &scene.wall {
         let is_shell = matches!(scene.wall, Wall::Shell(_));
-        if matches!(wall.material, Material::HolzapfelGasserOgden { .. }) {
-            refuse(
-                "wall.material".into(),
-                "holzapfel-gasser-ogden",
-                "\"neo-hookean\", \"saint-venant-kirchhoff\", of a solid also \"hypoelastic\"; its fibres need directions that nothing \
-                 finds yet",
-            );
-        }
-        if is_shell && matches!(wall.material, Material::Hypoelastic(_)) {
-            refuse(
-                "wall.material".into(),
-                "hypoelastic",
-                "for a shell \"neo-hookean\", \"saint-venant-kirchhoff\"",
-            );
+        let only_of_solids = match wall.material {
+            Material::Hypoelastic(_) => Some("hypoelastic"),
+            Material::HolzapfelGasserOgden(_) => Some("holzapfel-gasser-ogden"),
+            Material::NeoHookean(_) | Material::SaintVenantKirchhoff(_) => None,
+        };
+        if let (true, Some(seen)) = (is_shell, only_of_solids) {
+            refuse("wall.material".into(), seen, "for a shell \"neo-hookean\", \"saint-venant-kirchhoff\"");
         }
         let blood = scene.particles.spacing;
         let own = if is_shell { shell_spacing(scene) } else { wall_spacing(wall, blood) };

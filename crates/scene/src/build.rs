@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::document::Source;
 use crate::error::Problem;
 use crate::material::{
-    Blood, ElasticWall, Elasticity, Material, MaterialModel, Support, Viscosity, ViscosityModel, Wall,
-    WallBody, WallModel,
+    Blood, ElasticWall, Elasticity, Fibers, Material, MaterialModel, Support, Viscosity, ViscosityModel,
+    Wall, WallBody, WallModel,
 };
 use crate::scene::{Generator, Geometry, Numerics, Particles, Probe, Run};
 use crate::schema::GeneratorKind;
@@ -142,14 +142,14 @@ impl Builder<'_> {
             MaterialModel::NeoHookean => Material::NeoHookean(elasticity()),
             MaterialModel::SaintVenantKirchhoff => Material::SaintVenantKirchhoff(elasticity()),
             MaterialModel::Hypoelastic => Material::Hypoelastic(elasticity()),
-            MaterialModel::HolzapfelGasserOgden => Material::HolzapfelGasserOgden {
+            MaterialModel::HolzapfelGasserOgden => Material::HolzapfelGasserOgden(Fibers {
                 matrix_modulus: section.number("matrix_modulus"),
                 fiber_modulus: section.number("fiber_modulus"),
                 fiber_exponent: section.number("fiber_exponent"),
                 fiber_dispersion: section.number("fiber_dispersion"),
                 fiber_angle: section.number("fiber_angle"),
                 poisson_ratio,
-            },
+            }),
         })
     }
 

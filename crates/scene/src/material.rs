@@ -128,20 +128,24 @@ pub enum Material {
     /// Linear between rate of deformation and Jaumann stress rate.
     Hypoelastic(Elasticity),
     /// Two families of fibres in a neo-Hookean matrix (Gasser, Ogden, Holzapfel 2006).
-    HolzapfelGasserOgden {
-        /// c, shear modulus of the matrix \[Pa\].
-        matrix_modulus: f64,
-        /// k1, stiffness of the fibres \[Pa\].
-        fiber_modulus: f64,
-        /// k2, exponent of their stiffening.
-        fiber_exponent: f64,
-        /// kappa, dispersion of their directions, from 0 (aligned) to 1/3 (isotropic).
-        fiber_dispersion: f64,
-        /// Angle between fibres and circumferential direction \[rad\].
-        fiber_angle: f64,
-        /// Poisson's ratio of the matrix, which sets the bulk modulus.
-        poisson_ratio: f64,
-    },
+    HolzapfelGasserOgden(Fibers),
+}
+
+/// Constants of a matrix with two families of fibres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fibers {
+    /// c, shear modulus of the matrix \[Pa\].
+    pub matrix_modulus: f64,
+    /// k1, stiffness of the fibres \[Pa\].
+    pub fiber_modulus: f64,
+    /// k2, exponent of their stiffening.
+    pub fiber_exponent: f64,
+    /// kappa, dispersion of their directions, from 0 (aligned) to 1/3 (isotropic).
+    pub fiber_dispersion: f64,
+    /// Angle between fibres and circumferential direction \[rad\].
+    pub fiber_angle: f64,
+    /// Poisson's ratio of the matrix, which sets the bulk modulus.
+    pub poisson_ratio: f64,
 }
 
 words! {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use vaso_scene::material::{Damping, Ends, Material, Viscosity};
+use vaso_scene::material::{Damping, Ends, Fibers, Material, Viscosity};
 use vaso_scene::{
     Condition, Coupling, Drive, Field, Generator, Interpolation, Lattice, OpenEnds, Precision, Problem,
     Profile, Scene, SceneError, Topology, Wall, WallBody,
@@ -162,7 +162,8 @@ fn a_wall_without_blood() {
     assert_eq!(scene.blood, None);
     assert_eq!(scene.particles.generator, Generator::RelaxedLattice(Lattice::BodyCentred));
     let Wall::Solid(wall) = scene.wall else { panic!("not solid") };
-    let Material::HolzapfelGasserOgden { fiber_angle, fiber_dispersion, poisson_ratio, .. } = wall.material
+    let Material::HolzapfelGasserOgden(Fibers { fiber_angle, fiber_dispersion, poisson_ratio, .. }) =
+        wall.material
     else {
         panic!("no fibres")
     };

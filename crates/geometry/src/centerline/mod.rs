@@ -1,5 +1,6 @@
 //! The tree of centrelines of a vessel: branches between openings and junctions.
 
+mod axial;
 mod center;
 mod curve;
 mod path;
