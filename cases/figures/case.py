@@ -23,6 +23,10 @@ class Skipped(Exception):
     """A case whose figures cannot be made, and why."""
 
 
+class NoRun(Skipped):
+    """There is no run, or not one that the figures can be made of."""
+
+
 def quantity(text: str) -> float:
     """`"0.25 mm"` as 0.00025."""
     number, unit = text.split(" ", 1)
@@ -38,11 +42,11 @@ class Case:
         self.toml: dict[str, Any] = tomllib.loads((folder / "case.toml").read_text(encoding="utf-8"))
         out = out or folder / "out"
         if not (out / "summary.json").is_file():
-            raise Skipped(f"there is no run in {out}")
+            raise NoRun(f"there is no run in {out}")
         self.run = vaso.Result(out)
         self.summary = self.run.summary
         if self.summary["status"] != "completed":
-            raise Skipped(f"the run in {out} is not completed but {self.summary['status']}")
+            raise NoRun(f"the run in {out} is not completed but {self.summary['status']}")
         #: Where it ended [s]. Not `run.end_time` of the case, which a flag may have changed.
         self.end = float(self.summary["time_s"])
         self.spacing = self.run.spacing
@@ -83,17 +87,17 @@ class Case:
         """The last whole cycle of a periodic run [s]."""
         n = int(np.floor(self.end / self.period + 1e-6))
         if n < 1:
-            raise Skipped(f"the run ended after {self.end:.3g} s, before the first cycle of {self.period:.3g} s")
+            raise NoRun(f"the run ended after {self.end:.3g} s, before the first cycle of {self.period:.3g} s")
         return (n - 1) * self.period, n * self.period
 
     def steps(self, window: tuple[float, float], *, closed: bool = True) -> list[int]:
         """Numbers of the frames of the blood in a window; of a cycle without its end (`closed=False`), which is its start as well."""
         times = self.run.fluid.times
-        # Frames come with the first step behind their time, up to a thousandth of the window late.
+        # A frame comes with the first step behind its time.
         slack = 0.01 * (window[1] - window[0])
         inside = (times > window[0] - 0.1 * slack) & (times < window[1] + (slack if closed else -slack))
         if not inside.any():
-            raise Skipped(f"no frame lies between {window[0]:.3g} and {window[1]:.3g} s")
+            raise NoRun(f"no frame lies between {window[0]:.3g} and {window[1]:.3g} s")
         return list(np.flatnonzero(inside))
 
     def across(self, diameter: float) -> str:

@@ -46,11 +46,14 @@ def figures(case: Case) -> dict[str, str]:
     def pressures(low: float, high: float, whole: float) -> str:
         return f"{1e-3 * low:.2f} to {1e-3 * high:.2f} kPa, mean {1e-3 * whole:.2f}"
 
-    ref = reference["pressure"].values
+    ref, ref_flow = reference["pressure"].values, reference["flow"].values
     compared = [
-        ["pressure", pressures(*span["pressure"], mean(t, pressure, window)), pressures(ref.min(), ref.max(), ref.mean()), f"{readme.percent(rms['pressure'] / pulse)} of the pulse"],
-        ["flow", *(f"{1e6 * a:.2f} to {1e6 * b:.2f} ml/s" for a, b in (span["flow"], (reference["flow"].values.min(), largest["flow"]))), f"{readme.percent(rms['flow'] / largest['flow'])} of the peak"],
-        ["radius change since diastole", f"{1e3 * span['radius'][1]:.3f} mm", f"{1e3 * largest['radius']:.3f} mm", f"{readme.percent(rms['radius'] / largest['radius'])} of the largest"],
+        ["pressure", pressures(*span["pressure"], mean(t, pressure, window)), pressures(ref.min(), ref.max(), ref.mean()),
+         f"{readme.percent(rms['pressure'] / pulse)} of the pulse"],
+        ["flow", *(f"{1e6 * a:.2f} to {1e6 * b:.2f} ml/s" for a, b in (span["flow"], (ref_flow.min(), ref_flow.max()))),
+         f"{readme.percent(rms['flow'] / largest['flow'])} of the peak"],
+        ["radius change since diastole", f"{1e3 * span['radius'][1]:.3f} mm", f"{1e3 * largest['radius']:.3f} mm",
+         f"{readme.percent(rms['radius'] / largest['radius'])} of the largest"],
     ]  # fmt: skip
 
     openings, outlet = case.run.openings, case.opening("outlet")
@@ -63,7 +66,8 @@ def figures(case: Case) -> dict[str, str]:
     first, last = (mean(t, pressure, edge) for edge in ((t[0], t[0] + 0.01 * period), (t[-1] - 0.01 * period, t[-1])))
     balance = [
         ["mean flow out, in", f"{1e6 * q['outlet']:.3f}, {1e6 * q['inlet']:.3f} ml/s", f"{1e6 * exact:.3f} ml/s"],
-        ["mean pressure of the outlet", f"{1e-3 * mean(time, openings['outlet.pressure_pa'], window):.2f} kPa", f"{1e-3 * expected:.2f} kPa, mean flow times `R_p + R_d`"],
+        ["mean pressure of the outlet", f"{1e-3 * mean(time, openings['outlet.pressure_pa'], window):.2f} kPa",
+         f"{1e-3 * expected:.2f} kPa, mean flow times `R_p + R_d`"],
         ["pressure at the end of the cycle, by its start", f"{last - first:+.0f} Pa, {readme.percent(abs(last - first) / pulse)} of the pulse", "0"],
     ]  # fmt: skip
     rigid = pulsatile.windkessel(pulsatile.harmonics(inflow[:-1]), np.linspace(0.0, period, 400), period, *elements, quantity(outlet["compliance"]))
@@ -72,8 +76,10 @@ def figures(case: Case) -> dict[str, str]:
         f"The last whole cycle, from {readme.from_to(window)}, a spacing of {readme.spacing(case)}, {case.across(2 * RADIUS)} across, moved by {shift:.3f} s to the reference:",
         readme.table(["in the middle", "here", "finite elements", "difference, rms"], compared),
         readme.table(["", "found", "expected"], balance),
-        f"Without the elastic wall the same outlet would swing from {1e-3 * rigid.min():.2f} to {1e-3 * rigid.max():.2f} kPa. The wall widens by {1e3 * span['radius'][1]:.3f} mm,"
-        f" {readme.off(span['radius'][1] / largest['radius'], 0)} against the reference, a membrane on the lumen, for which `p r^2 (1 - nu^2) / (E h)` gives {1e3 * membrane(case, pulse):.3f} mm. " + readme.soundness(case),
+        f"Without the elastic wall the same outlet would swing from {1e-3 * rigid.min():.2f} to {1e-3 * rigid.max():.2f} kPa."
+        f" The wall widens by {1e3 * span['radius'][1]:.3f} mm,"
+        f" {readme.off(span['radius'][1] / largest['radius'], 0)} against the reference, a membrane on the lumen,"
+        f" for which `p r^2 (1 - nu^2) / (E h)` gives {1e3 * membrane(case, pulse):.3f} mm. " + readme.soundness(case),
     ]
     return {"result": "\n\n".join(text)}
 

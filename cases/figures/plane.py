@@ -21,7 +21,7 @@ def triangles(case: Case) -> np.ndarray:
 
 
 class Plane:
-    """A plane through `origin` [m] with the unit vectors `right` and `up` in it, and pixels of a third of a spacing."""
+    """A plane through `origin` [m] with the unit vectors `right` and `up` in it, and pixels of a third of a spacing, finer where the picture would be coarse."""
 
     def __init__(self, case: Case, origin, right, up) -> None:
         self.case = case
@@ -30,7 +30,7 @@ class Plane:
         #: Where the wall is cut, segments (n, 2, 2) [m] along the axes.
         self.wall = self._cut()
         low, high = self.wall.min(axis=(0, 1)), self.wall.max(axis=(0, 1))
-        pixel = case.spacing / 3.0
+        pixel = min(case.spacing / 3.0, (high - low).max() / 200.0)
         #: Places of the pixels along the axes [m].
         self.x, self.y = (np.arange(a - pixel, b + 1.5 * pixel, pixel) for a, b in zip(low, high))
         self.inside = self._inside()

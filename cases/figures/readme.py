@@ -32,7 +32,12 @@ def put(page: Path, blocks: Mapping[str, str]) -> None:
 
 def wrapped(block: str) -> str:
     """Paragraphs in lines as long as those written by hand; tables as they are."""
-    fill = lambda part: part if part.startswith("|") else textwrap.fill(part, 150, break_long_words=False, break_on_hyphens=False)  # noqa: E731
+
+    def fill(part: str) -> str:
+        # No line begins with the sign of per cent.
+        lines = textwrap.fill(part.replace(" %", "\0%"), 150, break_long_words=False, break_on_hyphens=False)
+        return part if part.startswith("|") else lines.replace("\0", " ")
+
     return "\n\n".join(fill(part.strip()) for part in block.strip().split("\n\n"))
 
 
