@@ -39,7 +39,6 @@ def save(case: Case, fig) -> None:
     Image.open(drawn).convert("RGB").save(case.folder / "result.png", optimize=True)
 
 
-
 def show(ax, plane: Plane, values: np.ndarray, *, label: str, title: str = "", bar: str = "right", **image) -> None:
     """Values on a plane [mm] with the wall and a bar of colours."""
     half = 0.5 * (plane.x[1] - plane.x[0])

@@ -96,7 +96,7 @@ def verdict(energy: dict[str, float], names: list[str]) -> str:
     # A twentieth is what such means may be off by, see tests/tests/narrowing.rs.
     if gain > 0.05:
         return f"**The core of the jet is too fast:** the energy of the blood on the axis rises by {readme.percent(gain, 0)}, which it cannot."
-    return f"On the axis blood gains no energy: `p + rho u^2 / 2` is {readme.off(max(rest) / before, 0)} at most of what it is before, and means such as these are good to a twentieth."
+    return f"On the axis blood gains no energy: `p + rho u^2 / 2` is {readme.percent(max(rest) / before, 0)} of what it was before at most, and means such as these are good to a twentieth."
 
 
 def back(case: Case, steps: list[int]) -> str:
