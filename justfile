@@ -87,6 +87,11 @@ fuzz target="vtp" seconds="60":
     mkdir -p fuzz/target/corpus/{{target}}
     cargo fuzz run --sanitizer none {{target}} fuzz/target/corpus/{{target}} fuzz/corpus/{{target}} -- -max_len=8192 -timeout=5 -max_total_time={{seconds}}
 
+# The cases named (all without names) run anew, and the tables and pictures of their READMEs made from that; half an hour on two cores, two of them want VASO_DATA.
+cases-figures *cases:
+    cargo build --release
+    sh .ci/figures.sh {{cases}}
+
 # The pages of docs as a book in target/book, with every link followed.
 book:
     sh .ci/book.sh
