@@ -1,7 +1,7 @@
 //! Axial directions of walls by their centrelines.
 
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use vaso_geometry::{Centerlines, LengthUnit, Surface, Vessel, prepare, shapes};
 
@@ -63,7 +63,7 @@ fn on_a_bend_it_is_that_of_the_arc() {
 fn where_branches_part_it_goes_over_from_one_to_the_other() {
     let Axial { vessel, triangles, points, directions } =
         axial(shapes::bifurcation(&shapes::BifurcationSpec::default()));
-    let mut edges: HashMap<[u32; 2], usize> = HashMap::new();
+    let mut edges: BTreeMap<[u32; 2], usize> = BTreeMap::new();
     let mut turns: Vec<(f64, DVec3)> = Vec::new();
     for (k, &t) in triangles.iter().enumerate() {
         let [a, b, c] = vessel.surface.triangles[t];
