@@ -85,6 +85,16 @@ pub const CASES: &[Studied] = &[
         goal: Some(Goal::Error(0.01)),
     },
     Studied {
+        name: "womersley",
+        case: "cases/womersley",
+        remark: "A flow driven to and fro by the pressures at both ends, at twelve, fifteen and twenty spacings across, against the formula: `flow` is the amplitude \
+                 of the outflow in the last of four periods, `velocity` the largest velocities at three points of the middle. What pressures lose at the caps is in both.",
+        set: &[],
+        spacings: &[],
+        ladders: &["spacing", "sound-speed", "precision"],
+        goal: None,
+    },
+    Studied {
         name: "carotid",
         case: "cases/carotid",
         remark: "A bifurcation of the size of a carotid artery, for which there is no formula: errors are counted from what the \
