@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::Plan;
+use crate::results::{ShearColumns, ShearFields};
 use crate::world::WallParticles;
 use std::path::PathBuf;
 use vaso_coupling::{Coupling, MovingWall};
@@ -14,6 +15,9 @@ pub trait Deforming: MovingWall + Sized {
     /// The open `wall.vtkhdf`.
     type File;
 
+    /// Whether that has triangles, which take the stress of the blood as well. Where it has particles, there is a `lumen.vtkhdf` for it.
+    const HAS_TRIANGLES: bool;
+
     /// Name of its effect.
     const EFFECT: &'static str;
 
@@ -23,13 +27,20 @@ pub trait Deforming: MovingWall + Sized {
     /// When the particles do not make such a wall.
     fn build(case: &Case, plan: &Plan, particles: &WallParticles) -> Result<Option<Self>, DriverError>;
 
-    /// Starts its series at `path`, or goes on with the frames up to the time `kept` \[s\].
+    /// Starts its series at `path`, or goes on with the frames up to the time `kept` \[s\]; `shear` is what triangles are to take of the
+    /// stress of the blood.
     ///
     /// # Errors
     /// When it cannot be declared, or what is there is not such a series.
-    fn create(&self, path: PathBuf, case: &Case, kept: Option<f64>) -> Result<Self::File, DriverError>;
+    fn create(
+        &self,
+        path: PathBuf,
+        case: &Case,
+        shear: Option<&ShearFields>,
+        kept: Option<f64>,
+    ) -> Result<Self::File, DriverError>;
 
-    /// Appends where it stands at `time` \[s\].
+    /// Appends where it stands at `time` \[s\], and the stress of the blood on it.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -38,6 +49,7 @@ pub trait Deforming: MovingWall + Sized {
         file: &mut Self::File,
         time: f64,
         fields: &[Field],
+        shear: Option<&ShearColumns>,
     ) -> Result<(), DriverError>;
 
     /// Says in the summary where it stands, and what went through it.

@@ -32,11 +32,12 @@ pub fn resume(out: &Path, stop: &AtomicBool, talk: &Talk) -> Result<Summary, Dri
     }
     let checkpoint = Checkpoint::read(out)?;
     let (case, plan) = checkpoint.origin.reopen(out)?;
-    let has_wall = plan.wall_metrics || plan.deforms();
-    let series: &[&str] = if has_wall { &["fluid.vtkhdf", "wall.vtkhdf"] } else { &["fluid.vtkhdf"] };
+    let mut series = vec!["fluid.vtkhdf"];
+    series.extend((plan.wall_metrics || plan.deforms()).then_some("wall.vtkhdf"));
+    series.extend((plan.wall_metrics && plan.wall.is_some()).then_some("lumen.vtkhdf"));
     let has_probes = !case.scene.probes.is_empty();
     let tables: &[&str] = if has_probes { &["openings.csv", "probes.csv"] } else { &["openings.csv"] };
-    checkpoint.standing.check(out, series, tables)?;
+    checkpoint.standing.check(out, &series, tables)?;
     talk.say(&format!(
         "resume   {} at {:.6e} of {} s, from its checkpoint",
         case.scene.file.display(),

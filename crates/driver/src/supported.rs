@@ -48,13 +48,6 @@ pub(crate) fn check(case: &Case) -> Result<(), DriverError> {
         refuse("wall.open_ends".into(), seen, "\"collar\"");
     }
     for field in &scene.output.fields {
-        if is_elastic && is_shear(*field) {
-            refuse(
-                "output.fields".into(),
-                field.word(),
-                "where the wall deforms, fields of the blood and \"displacement\", \"von_mises\"",
-            );
-        }
         if !is_elastic && matches!(field, Field::Displacement | Field::VonMises) {
             refuse(
                 "output.fields".into(),

@@ -13,7 +13,7 @@ const SOLID: &[&str] = &[
     "wall.young_modulus=0.5 MPa",
     "wall.spacing=0.9 mm",
     "run.cycles=1",
-    "output.fields=[\"velocity\", \"displacement\", \"von_mises\"]",
+    "output.fields=[\"velocity\", \"displacement\", \"von_mises\", \"wss\", \"tawss\"]",
 ];
 
 /// The same with a shell, in tissue.
@@ -24,7 +24,7 @@ const SHELL: &[&str] = &[
     "wall.support.stiffness=1e6 Pa/m",
     "wall.support.damping=1e4 Pa s/m",
     "run.cycles=1",
-    "output.fields=[\"velocity\", \"displacement\", \"von_mises\"]",
+    "output.fields=[\"velocity\", \"displacement\", \"von_mises\", \"wss\", \"tawss\"]",
 ];
 
 /// Kills a run twice, each time after some more rows, and goes on with another number of threads.

@@ -144,6 +144,11 @@ impl<R: Real> Fluid<R> {
         self.take_wall(view, &[]);
     }
 
+    /// Where the particles of a wall that moves were when the distance to it was measured \[m\], in the order of its views.
+    pub fn wall_origin(&self) -> Option<&[DVec3]> {
+        self.moving.as_ref().map(|moving| moving.origin.as_slice())
+    }
+
     /// Factors for the particles of a wall, by the divergence of the normals at the lumen surface in front of each.
     fn levers(&self, view: &WallView, thinning: f64) -> Vec<f64> {
         let step = self.numbers.spacing;

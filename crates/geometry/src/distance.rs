@@ -70,6 +70,12 @@ impl SignedDistance {
         SignedDistance { is_continuous: true, ..SignedDistance::new(surface, |_| true, false) }
     }
 
+    /// Distance to an oriented surface with a border, as the wall of a vessel without its caps is: on the side its normals point away
+    /// from it is negative. Beyond the border the side is that of the surface continued along its tangent.
+    pub fn sheet(surface: &Surface) -> SignedDistance {
+        SignedDistance::new(surface, |_| true, false)
+    }
+
     /// Distance to the triangles `keep` says yes to.
     pub(crate) fn new(surface: &Surface, keep: impl Fn(usize) -> bool, by_winding: bool) -> SignedDistance {
         let ids: Vec<u32> = (0..surface.triangles.len()).filter(|&t| keep(t)).map(|t| t as u32).collect();

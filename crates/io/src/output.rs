@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 const OUTPUTS: &[&str] = &[
     "fluid.vtkhdf",
     "wall.vtkhdf",
+    "lumen.vtkhdf",
     "openings.csv",
     "probes.csv",
     "report.html",

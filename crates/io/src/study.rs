@@ -77,7 +77,7 @@ impl StudyReport {
 }
 
 /// Columns of every run, between those of its settings and those of its values.
-const NUMBERS: [&str; 13] = [
+const NUMBERS: [&str; 15] = [
     "status",
     "wall_clock_s",
     "predicted_s",
@@ -91,6 +91,8 @@ const NUMBERS: [&str; 13] = [
     "sound_speed_m_s",
     "max_density_error",
     "mass_balance_error",
+    "wall_s",
+    "wall_shear_correlation",
 ];
 
 fn cell(value: f64) -> String {
@@ -162,6 +164,13 @@ pub struct StudyRun {
     /// Inflow less outflow, of the inflow \[-\].
     #[serde(deserialize_with = "json::number")]
     pub mass_balance_error: f64,
+    /// Time in a wall that deforms: its motion, and what lies between it and the blood \[s\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall_s: Option<f64>,
+    /// Correlation of the wall shear stress, point by point, with that of the run of the ladder of spacings at the same spacing \[-\]; absent
+    /// where either told none, and for those of that ladder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall_shear_correlation: Option<f64>,
     /// What was measured \[SI\].
     pub values: Vec<NamedValue>,
     /// Errors, as shares \[-\]; `worst` last.
@@ -185,6 +194,8 @@ impl StudyRun {
             cell(self.sound_speed_m_s),
             cell(self.max_density_error),
             cell(self.mass_balance_error),
+            cell(self.wall_s.unwrap_or(f64::NAN)),
+            cell(self.wall_shear_correlation.unwrap_or(f64::NAN)),
         ]
     }
 

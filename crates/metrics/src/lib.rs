@@ -14,6 +14,6 @@ pub use openings::{
     OpeningSample, Range, Verdict, Waveform, dissipation, kinetic_power,
 };
 pub use wall::{
-    LARGEST_INVERSE, NearWallDistance, PointIndices, SHEAR_DEFINITIONS, STRESS_DEFINITION, ShearCycle,
-    ShearCycles, ShearSample, ShearWindow, Viscosity, WallMesh, WallMotion, WallShear,
+    CarriedWall, LARGEST_INVERSE, NearWallDistance, PointIndices, SHEAR_DEFINITIONS, STRESS_DEFINITION,
+    ShearCycle, ShearCycles, ShearSample, ShearWindow, Viscosity, WallMesh, WallMotion, WallPose, WallShear,
 };

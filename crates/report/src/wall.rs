@@ -17,16 +17,19 @@ const DRAWN: [(Quantity, &str); 4] = [
 
 /// Pictures and numbers of the wall.
 pub(crate) fn wall(out: &Path, summary: &Summary) -> String {
-    let path = out.join("wall.vtkhdf");
-    if !path.exists() {
+    // Where `wall.vtkhdf` has the particles of a solid, the surface is in a file of its own.
+    let names = ["lumen.vtkhdf", "wall.vtkhdf"];
+    let Some((name, path)) =
+        names.map(|name| (name, out.join(name))).into_iter().find(|(_, path)| path.exists())
+    else {
         return String::new();
-    }
+    };
     let reader = match SeriesReader::open(&path) {
         Ok(reader) => reader,
         Err(error) => return note(&error.into()),
     };
     let figures = figures(&reader, &path, summary).unwrap_or_else(|error| note(&error.into()));
-    let numbers = summary.wall.as_ref().map(|wall| numbers(wall, &reader.info().fields));
+    let numbers = summary.wall.as_ref().map(|wall| numbers(wall, name, &reader.info().fields));
     figures + &numbers.unwrap_or_default()
 }
 
@@ -60,7 +63,7 @@ fn figures(reader: &SeriesReader, path: &Path, summary: &Summary) -> Result<Stri
 }
 
 /// How stresses and indices are distributed over the wall, and what they are.
-fn numbers(wall: &WallSummary, fields: &[FieldInfo]) -> String {
+fn numbers(wall: &WallSummary, file: &str, fields: &[FieldInfo]) -> String {
     let known = [
         ("wall shear stress", schema::WSS, "Pa", wall.wss_pa),
         ("time-averaged wall shear stress", schema::TAWSS, "Pa", wall.tawss_pa),
@@ -106,11 +109,11 @@ fn numbers(wall: &WallSummary, fields: &[FieldInfo]) -> String {
             number(wall.counted_area_m2 * 1e4, 3)
         );
     }
-    html + &definitions(&told, fields)
+    html + &definitions(&told, file, fields)
 }
 
 /// Formula and source of each quantity, as the file has them.
-fn definitions(told: &[(&str, &str, &str, Distribution)], fields: &[FieldInfo]) -> String {
+fn definitions(told: &[(&str, &str, &str, Distribution)], file: &str, fields: &[FieldInfo]) -> String {
     let rows: Vec<Vec<String>> = told
         .iter()
         .filter_map(|(_, name, _, _)| {
@@ -124,5 +127,5 @@ fn definitions(told: &[(&str, &str, &str, Distribution)], fields: &[FieldInfo]) 
         return String::new();
     }
     let columns = [Column::Words("quantity"), Column::Words("definition"), Column::Words("source")];
-    table("What these numbers are, as the attributes in wall.vtkhdf say", &columns, &rows)
+    table(&format!("What these numbers are, as the attributes in {file} say"), &columns, &rows)
 }

@@ -70,6 +70,14 @@ class Result:
         return Series(path)
 
     @property
+    def lumen(self) -> Series:
+        """``lumen.vtkhdf``: the surface of the lumen in a solid wall, with the stress of the blood on it."""
+        path = self.out / "lumen.vtkhdf"
+        if not path.exists():
+            raise OutputError(f"{path}: is not there; a solid wall has one if `output.fields` asks for \"wss\" or an index of a cycle")
+        return Series(path)
+
+    @property
     def report(self) -> Path:
         """The page of the run."""
         return self.out / "report.html"

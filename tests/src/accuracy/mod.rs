@@ -105,4 +105,25 @@ pub const CASES: &[Studied] = &[
         ladders: &[],
         goal: None,
     },
+    Studied {
+        name: "carotid-walls",
+        case: "cases/carotid",
+        remark: "The first 20 ms of the same bifurcation with a wall of 0.6 mm and 1.106 MPa: a shell, a solid of four layers, and one that is rigid, in \
+                 the same blood. Of one spacing, so no error is told; what counts is what the walls cost and how alike the flows are.",
+        set: &[
+            ("output.fields", "[\"velocity\", \"wss\"]"),
+            ("wall.model", "shell"),
+            ("wall.thickness", "0.6 mm"),
+            ("wall.young_modulus", "1.106 MPa"),
+            ("wall.poisson_ratio", "0.45"),
+            // That of the plan with the shell: a rigid wall alone would have a tenth of it, and sound in place of a flow.
+            ("numerics.sound_speed", "57 m/s"),
+            ("opening.cca.ramp", "10 ms"),
+            ("run.end_time", "20 ms"),
+            ("output.table_every", "0.5 ms"),
+        ],
+        spacings: &[6e-4],
+        ladders: &["wall"],
+        goal: None,
+    },
 ];

@@ -80,6 +80,9 @@ fn section(studied: &Studied, report: &StudyReport) -> String {
     for run in &report.runs {
         text.push_str(&row(run, &names, report));
     }
+    if report.runs.iter().any(|run| run.wall_s.is_some() || run.wall_shear_correlation.is_some()) {
+        text.push_str(&walls(report));
+    }
     text.push_str("\nBold: no other run beats it in time and error.\n\n");
     for error in &report.errors {
         let _ = write!(text, "- `{}`: {}", error.name, error.trend);
@@ -104,6 +107,35 @@ fn section(studied: &Studied, report: &StudyReport) -> String {
     if let Some(goal) = &report.goal {
         let _ = writeln!(text, "\n**{}**: {}.", if goal.met { "Met" } else { "Not met" }, goal.verdict);
     }
+    text
+}
+
+/// What the walls cost, and how alike the flows in them are.
+fn walls(report: &StudyReport) -> String {
+    let completed = || report.runs.iter().filter(|run| run.status == StudyStatus::Completed);
+    let names: Vec<&str> = completed()
+        .next()
+        .map(|run| run.values.iter().map(|value| value.name.as_str()).collect())
+        .unwrap_or_default();
+    let mut text = format!(
+        "\n| run | wall particles | time in the wall | wall shear stress, correlation | {} |\n|---|---|---|---|{}\n",
+        names.join(" | "),
+        "---|".repeat(names.len())
+    );
+    for run in completed() {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} |",
+            run.name,
+            run.particles.wall + run.particles.shell,
+            run.wall_s.map_or("–".into(), |s| format!("{s:.1} s")),
+            run.wall_shear_correlation.map_or("–".into(), |r| format!("{r:.4}")),
+            run.values.iter().map(|value| format!("{:.4e}", value.value)).collect::<Vec<_>>().join(" | ")
+        );
+    }
+    text.push_str(
+        "\nThe correlation is over the wall, by area, with the run of the ladder of spacings at the same spacing; values are in SI units.\n",
+    );
     text
 }
 

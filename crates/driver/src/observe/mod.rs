@@ -21,7 +21,7 @@ use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::EndReason;
 use vaso_metrics::Verdict;
-use vaso_particles::Memory;
+use vaso_particles::{Memory, WallView};
 
 /// All that watches a flow.
 pub struct Observers {
@@ -36,18 +36,18 @@ pub struct Observers {
 }
 
 impl Observers {
-    /// What `case` asks for.
+    /// What `case` asks for; `rest` is a wall that deforms where it was when the particles were made.
     ///
     /// # Errors
     /// When the period of the case is none.
-    pub fn new(case: &Case, plan: &Plan) -> Result<Self, DriverError> {
+    pub fn new(case: &Case, plan: &Plan, rest: Option<&WallView>) -> Result<Self, DriverError> {
         let steady = case.scene.run.steady;
         let names = || plan.openings.iter().map(|o| o.name.clone()).collect();
         let alike = case.scene.run.periodicity.or(steady);
         let openings = plan.period.map(|period| OpeningObserver::new(names(), period, alike)).transpose()?;
         let settling =
             steady.filter(|_| plan.period.is_none()).map(|share| Settling::new(share, plan.settling_time));
-        let wall = plan.wall_metrics.then(|| WallObserver::new(case, plan)).transpose()?;
+        let wall = plan.wall_metrics.then(|| WallObserver::new(case, plan, rest)).transpose()?;
         Ok(Self { openings, wall, settling, energy: EnergyObserver::new(plan) })
     }
 

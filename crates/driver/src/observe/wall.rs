@@ -10,9 +10,10 @@ use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_geometry::SignedDistance;
 use vaso_metrics::{
-    BINS, NearWallDistance, ShearCycle, ShearCycles, ShearWindow, Viscosity, WallMesh, WallShear,
+    BINS, CarriedWall, NearWallDistance, ShearCycle, ShearCycles, ShearSample, ShearWindow, Viscosity,
+    WallMesh, WallMotion, WallPose, WallShear,
 };
-use vaso_particles::{Memory, WallDistance};
+use vaso_particles::{Memory, WallDistance, WallView};
 
 /// Samples in a window: they take the noise of single particles away before magnitudes are taken.
 const SAMPLES: f64 = 10.0;
@@ -23,7 +24,7 @@ const STEPS: u64 = 4;
 pub struct WallObserver {
     /// The surface it is told on.
     pub mesh: WallMesh,
-    /// Mean of the last window \[Pa\]; `None` before the first one is full.
+    /// Mean of the last window \[Pa\], of a wall that deforms in the directions it had at rest; `None` before the first one is full.
     pub stress: Option<Vec<Option<DVec3>>>,
     /// Indices of the last whole cycle.
     pub cycle: Option<ShearCycle>,
@@ -35,6 +36,8 @@ pub struct WallObserver {
     pub counted: Vec<f64>,
     shear: WallShear,
     exact: SignedDistance,
+    /// What goes with a wall that deforms.
+    carried: Option<CarriedWall>,
     window: ShearWindow,
     length: f64,
     next_sample: f64,
@@ -54,9 +57,14 @@ impl<R: Real> WallDistance for Coarse<'_, R> {
 
 impl WallObserver {
     /// Windows are a hundredth of the period, or the time between frames where that is shorter or there is no period.
-    pub(super) fn new(case: &Case, plan: &Plan) -> Result<Self, DriverError> {
+    ///
+    /// `rest` is a wall that deforms where it was when the particles were made.
+    pub(super) fn new(case: &Case, plan: &Plan, rest: Option<&WallView>) -> Result<Self, DriverError> {
         let spacing = plan.numbers.spacing;
-        let mesh = WallMesh::new(&case.vessel, spacing);
+        let mesh = mesh(case, plan);
+        let exact = SignedDistance::wall(&case.vessel);
+        let own = plan.wall.as_ref().map_or(spacing, |wall| wall.numbers.spacing);
+        let carried = rest.map(|view| CarriedWall::new(&mesh, view, &exact, own));
         let shear = WallShear::new(mesh.position.clone(), mesh.normal.clone(), spacing)?;
         let every = case.scene.output.every;
         let length = plan.period.map_or(every, |period| every.min(period / BINS as f64));
@@ -68,7 +76,8 @@ impl WallObserver {
             missing: 0,
             means: Vec::new(),
             counted: counted_area(&mesh, BUFFER_LENGTH * spacing),
-            exact: SignedDistance::wall(&case.vessel),
+            exact,
+            carried,
             window: ShearWindow::new(mesh.position.len()),
             length,
             next_sample: 0.0,
@@ -78,6 +87,11 @@ impl WallObserver {
             shear,
             mesh,
         })
+    }
+
+    /// Area of each point of the mesh of a run \[m^2\], zero within the buffers.
+    pub fn counted(case: &Case, plan: &Plan) -> Vec<f64> {
+        counted_area(&mesh(case, plan), BUFFER_LENGTH * plan.numbers.spacing)
     }
 
     /// Whether stresses are summed over cycles.
@@ -95,6 +109,8 @@ impl WallObserver {
             counted: _,
             shear: _,
             exact: _,
+            // Made anew from the wall at rest.
+            carried: _,
             window,
             length: _,
             next_sample,
@@ -138,15 +154,21 @@ impl WallObserver {
         self.next_step = flow.advective_steps + STEPS;
         self.next_sample = flow.time + self.length / SAMPLES;
         let (fluid, state) = (&flow.fluid, &flow.fluid.state);
-        let coarse = Coarse(fluid);
-        let distance = NearWallDistance { coarse: &coarse, exact: &self.exact, reach: self.shear.reach() };
         let numbers = fluid.numbers();
         let law = |rate: f64| numbers.rheology.map_or(numbers.viscosity, |law| law.viscosity(rate));
         let viscosity = match numbers.rheology {
             None => Viscosity::Constant(numbers.viscosity),
             Some(_) => Viscosity::ShearRate(&law),
         };
-        let sample = self.shear.evaluate(&state.position, &state.velocity, &distance, viscosity)?;
+        let sample = match self.pose(flow) {
+            None => {
+                let coarse = Coarse(fluid);
+                let distance =
+                    NearWallDistance { coarse: &coarse, exact: &self.exact, reach: self.shear.reach() };
+                self.shear.evaluate(&state.position, &state.velocity, &distance, viscosity)?
+            }
+            Some((carried, pose)) => self.along(fluid, carried, pose, viscosity)?,
+        };
         self.missing = sample.missing();
         self.window.add(flow.time, &sample.stress)?;
         if flow.time < self.next_window {
@@ -156,6 +178,38 @@ impl WallObserver {
             self.next_window += self.length;
         }
         self.close_window()
+    }
+
+    /// Where a wall that deforms stands now.
+    pub fn pose<R: Real, W: MovingWall>(&self, flow: &Flow<R, W>) -> Option<(&CarriedWall, WallPose)> {
+        let (carried, wall) = self.carried.as_ref().zip(flow.wall.as_ref())?;
+        Some((carried, carried.pose(&wall.view())))
+    }
+
+    /// Stress along a wall that deforms, in the directions it had at rest: what a piece of tissue feels over a cycle.
+    fn along<R: Real>(
+        &self,
+        fluid: &vaso_fluid::Fluid<R>,
+        carried: &CarriedWall,
+        pose: WallPose,
+        viscosity: Viscosity,
+    ) -> Result<ShearSample, DriverError> {
+        let exact = carried.distance(&pose);
+        let went = pose.position.iter().zip(&self.mesh.position).map(|(x, rest)| x.distance_squared(*rest));
+        // The distance the fluid knows is that of the wall at rest.
+        let reach = self.shear.wide_reach() + went.fold(0.0, f64::max).sqrt();
+        let coarse = Coarse(fluid);
+        let distance = NearWallDistance { coarse: &coarse, exact: &exact, reach };
+        let WallPose { position, normal, rotation, velocity, gradient } = pose;
+        let shear = WallShear::new(position, normal, fluid.numbers().spacing)?;
+        let state = &fluid.state;
+        let motion = WallMotion { velocity: &velocity, gradient: &gradient };
+        let mut sample =
+            shear.evaluate_moving(&state.position, &state.velocity, &distance, viscosity, motion)?;
+        for (stress, turn) in sample.stress.iter_mut().zip(&rotation) {
+            *stress = stress.map(|stress| turn.transpose() * stress);
+        }
+        Ok(sample)
     }
 
     fn close_window(&mut self) -> Result<Option<f64>, DriverError> {
@@ -199,6 +253,12 @@ fn remember_stress(stress: &mut Option<Vec<Option<DVec3>>>, n: usize, memory: &m
     }
     let some = |vector: DVec3| Some(vector).filter(|v| !v.is_nan());
     *stress = (!vectors.is_empty()).then(|| vectors.into_iter().map(some).collect());
+}
+
+/// The mesh that stress is told on. A shell is told on triangles of its own spacing, and the stress on it on the same.
+fn mesh(case: &Case, plan: &Plan) -> WallMesh {
+    let own = plan.shell.as_ref().map_or(plan.numbers.spacing, |shell| shell.numbers.spacing);
+    WallMesh::new(&case.vessel, own)
 }
 
 /// Area of each point of the mesh \[m^2\], zero up to `length` \[m\] from an opening.

@@ -16,7 +16,7 @@ use vaso_fluid::Real;
 use vaso_io::{
     EndReason, IoError, OutputDir, SeriesWriter, SurfaceField, SurfaceMesh, SurfaceSeriesWriter, Table,
 };
-use vaso_particles::Memory;
+use vaso_particles::{Memory, WallView};
 
 mod account;
 mod frames;
@@ -28,6 +28,7 @@ mod wall;
 
 pub use frames::append_frame;
 use wall::WallFile;
+pub use wall::{ShearColumns, ShearFields};
 
 pub use standing::Standing;
 pub use summary::{numbers, opening_entry, surface_report};
@@ -99,6 +100,8 @@ pub struct Results<F> {
     folder: std::path::PathBuf,
     fluid: SeriesWriter,
     wall: Option<WallFile>,
+    /// The same in the series of a wall that deforms, where that is of triangles.
+    shear: Option<ShearFields>,
     /// Series of a wall that deforms.
     deforming: Option<F>,
     table: Table,
@@ -146,13 +149,22 @@ impl<F> Results<F> {
             Some(open_table(out.file("probes.csv"), &header, kept_rows)?)
         };
         let n = plan.openings.len();
-        let observers = Observers::new(case, plan)?;
+        let rest = flow.wall.as_ref().zip(flow.fluid.wall_origin());
+        let rest = rest.map(|(wall, position)| WallView { position, ..wall.view() });
+        let observers = Observers::new(case, plan, rest.as_ref())?;
         let fields = &case.scene.output.fields;
-        let wall_file = out.file("wall.vtkhdf");
-        let wall = observers.wall.as_ref().map(|w| WallFile::create(wall_file.clone(), w, fields, kept));
+        let is_shared = flow.wall.is_some() && W::HAS_TRIANGLES;
+        let shear = observers.wall.as_ref().filter(|_| is_shared).map(|_| ShearFields::new(fields));
+        let own = observers.wall.as_ref().filter(|_| !is_shared);
+        let own_file = out.file(if flow.wall.is_some() { "lumen.vtkhdf" } else { "wall.vtkhdf" });
+        let wall =
+            own.map(|w| WallFile::create(own_file, w, fields, flow.wall.is_some(), kept)).transpose()?;
+        let deforming =
+            flow.wall.as_ref().map(|w| w.wall.create(out.file("wall.vtkhdf"), case, shear.as_ref(), kept));
         Ok(Self {
-            wall: wall.transpose()?,
-            deforming: flow.wall.as_ref().map(|wall| wall.wall.create(wall_file, case, kept)).transpose()?,
+            wall,
+            deforming: deforming.transpose()?,
+            shear,
             folder: out.path().to_owned(),
             fluid: open(out.file("fluid.vtkhdf"), kept)?,
             table,
@@ -175,6 +187,7 @@ impl<F> Results<F> {
             // Where these stand is told by `standing`.
             fluid: _,
             wall,
+            shear,
             deforming: _,
             table: _,
             probes: _,
@@ -188,8 +201,8 @@ impl<F> Results<F> {
             identity: _,
             observers,
         } = self;
-        if let Some(wall) = wall {
-            wall.remember(memory);
+        if let Some(shear) = wall.as_mut().map(|wall| &mut wall.shear).or(shear.as_mut()) {
+            shear.remember(memory);
         }
         memory.fields("output.next_s", &mut [next_frame, next_row, last_time]);
         interval.remember("output.interval", memory);
@@ -308,14 +321,17 @@ impl<F> Results<F> {
         flow: &Flow<R, W>,
         case: &Case,
     ) -> Result<(), DriverError> {
+        let pose = self.observers.wall.as_ref().and_then(|wall| wall.pose(flow)).map(|(_, pose)| pose);
         if let (Some(file), Some(wall)) = (&mut self.wall, &self.observers.wall) {
-            file.append(flow.time, wall)?;
+            file.append(flow.time, wall, pose.as_ref())?;
         }
         if self.fluid.last_time() == Some(flow.time) {
             return Ok(());
         }
         if let (Some(file), Some(wall)) = (&mut self.deforming, &flow.wall) {
-            W::append(wall, file, flow.time, &case.scene.output.fields)?;
+            let told = self.shear.as_mut().zip(self.observers.wall.as_ref());
+            let shear = told.map(|(shear, observed)| shear.take(observed, pose.as_ref()));
+            W::append(wall, file, flow.time, &case.scene.output.fields, shear.as_ref())?;
         }
         Ok(append_frame(&mut self.fluid, flow, &case.scene.output.fields)?)
     }

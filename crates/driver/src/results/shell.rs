@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::plan::Plan;
-use crate::results::open_surface;
+use crate::results::{ShearColumns, ShearFields, open_surface};
 use crate::world::WallParticles;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -48,6 +48,7 @@ impl ShellFile {
         path: PathBuf,
         case: &Case,
         shell: &Shell<R>,
+        shear: Option<&ShearFields>,
         kept: Option<f64>,
     ) -> Result<Self, DriverError> {
         let fields = &case.scene.output.fields;
@@ -70,6 +71,7 @@ impl ShellFile {
         let first = if fields.contains(&Field::VonMises) { 0 } else { STRESSES };
         all.extend(SCALARS[first..].iter().map(|field| declared(*field, 1)));
         all.push(declared(SMALLER_CURVATURE, 1));
+        all.extend(shear.into_iter().flat_map(ShearFields::declared));
         let surface = SurfaceMesh { points: &mesh.position, triangles: &mesh.triangles };
         Ok(Self { series: open_surface(path, surface, &all, kept)?, near, mesh })
     }
@@ -79,7 +81,13 @@ impl ShellFile {
         self.near.par_iter().map(|near| near.iter().map(|&(i, w)| w * of(i as usize)).sum()).collect()
     }
 
-    fn append<R: Real>(&mut self, time: f64, shell: &Shell<R>, fields: &[Field]) -> Result<(), DriverError> {
+    fn append<R: Real>(
+        &mut self,
+        time: f64,
+        shell: &Shell<R>,
+        fields: &[Field],
+        shear: Option<&ShearColumns>,
+    ) -> Result<(), DriverError> {
         if self.series.last_time() == Some(time) {
             return Ok(());
         }
@@ -114,6 +122,9 @@ impl ShellFile {
             })
             .collect();
         frame.scalars.extend(columns.iter().map(|(name, values)| (*name, values.as_slice())));
+        if let Some(shear) = shear {
+            shear.put(&mut frame);
+        }
         Ok(self.series.append(&frame)?)
     }
 }
@@ -164,6 +175,8 @@ fn neighbours<R: Real>(mesh: &WallMesh, shell: &Shell<R>) -> Vec<Vec<(u32, f64)>
 impl<R: Real> Deforming for ShellWall<R> {
     type File = ShellFile;
 
+    const HAS_TRIANGLES: bool = true;
+
     const EFFECT: &'static str = "wall.shell";
 
     fn build(case: &Case, plan: &Plan, particles: &WallParticles) -> Result<Option<Self>, DriverError> {
@@ -171,8 +184,14 @@ impl<R: Real> Deforming for ShellWall<R> {
         planned.build(case, plan, body).map(Some)
     }
 
-    fn create(&self, path: PathBuf, case: &Case, kept: Option<f64>) -> Result<ShellFile, DriverError> {
-        ShellFile::new(path, case, &self.shell, kept)
+    fn create(
+        &self,
+        path: PathBuf,
+        case: &Case,
+        shear: Option<&ShearFields>,
+        kept: Option<f64>,
+    ) -> Result<ShellFile, DriverError> {
+        ShellFile::new(path, case, &self.shell, shear, kept)
     }
 
     fn append(
@@ -180,8 +199,9 @@ impl<R: Real> Deforming for ShellWall<R> {
         file: &mut ShellFile,
         time: f64,
         fields: &[Field],
+        shear: Option<&ShearColumns>,
     ) -> Result<(), DriverError> {
-        file.append(time, &wall.wall.shell, fields)
+        file.append(time, &wall.wall.shell, fields, shear)
     }
 
     fn summarize(wall: &mut Coupling<Self>, _: &Plan, told: &mut Summary) {

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::plan::Plan;
-use crate::results::open;
+use crate::results::{ShearColumns, ShearFields, open};
 use crate::world::WallParticles;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -18,6 +18,8 @@ use vaso_solid::Solid;
 impl<R: Real> Deforming for Solid<R> {
     type File = SeriesWriter;
 
+    const HAS_TRIANGLES: bool = false;
+
     const EFFECT: &'static str = "wall.solid";
 
     fn build(case: &Case, plan: &Plan, particles: &WallParticles) -> Result<Option<Self>, DriverError> {
@@ -25,7 +27,13 @@ impl<R: Real> Deforming for Solid<R> {
         planned.build(case, plan, body).map(Some)
     }
 
-    fn create(&self, path: PathBuf, _: &Case, kept: Option<f64>) -> Result<SeriesWriter, DriverError> {
+    fn create(
+        &self,
+        path: PathBuf,
+        _: &Case,
+        _: Option<&ShearFields>,
+        kept: Option<f64>,
+    ) -> Result<SeriesWriter, DriverError> {
         Ok(open(path, kept)?)
     }
 
@@ -34,6 +42,7 @@ impl<R: Real> Deforming for Solid<R> {
         file: &mut SeriesWriter,
         time: f64,
         fields: &[Field],
+        _: Option<&ShearColumns>,
     ) -> Result<(), DriverError> {
         Ok(append(file, time, wall, fields)?)
     }

@@ -4,6 +4,7 @@ mod analysis;
 mod goal;
 pub(crate) mod identity;
 mod ladder;
+mod map;
 mod measure;
 mod table;
 
@@ -16,6 +17,7 @@ use crate::plan::Plan;
 use crate::run::{self, Talk};
 use analysis::WORST;
 use ladder::{Settings, Variant};
+use map::StressMap;
 use measure::Target;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -37,6 +39,8 @@ pub struct StudyRequest {
 
 /// Names of the files of a study.
 const FILES: [&str; 4] = ["study.csv", "study.json", "study.svg", "report.html"];
+/// Effects that a wall that deforms costs.
+const WALLS: [&str; 3] = ["wall.solid", "wall.shell", "wall.coupling"];
 /// Part of a budget that its ladder may take.
 const LADDER_SHARE: f64 = 0.3;
 
@@ -62,7 +66,16 @@ pub fn study(
     OutputDir::keep_clear(FILES.map(|name| out.join(name)), force)?;
     OutputDir::keep_run(out, force)?;
     let folder = OutputDir::open(out)?;
-    let mut climb = Climb { case, targets, runs: Vec::new(), out, stop, talk, repeat: request.repeat.max(1) };
+    let mut climb = Climb {
+        case,
+        targets,
+        runs: Vec::new(),
+        maps: Vec::new(),
+        out,
+        stop,
+        talk,
+        repeat: request.repeat.max(1),
+    };
     let judged = Judged { by: &judged_by };
     let mut report = StudyReport {
         vaso_version: env!("CARGO_PKG_VERSION").into(),
@@ -156,6 +169,8 @@ struct Climb<'a> {
     case: &'a Case,
     targets: Vec<Target>,
     runs: Vec<StudyRun>,
+    /// Wall shear stress of each run.
+    maps: Vec<Option<StressMap>>,
     out: &'a Path,
     stop: &'a AtomicBool,
     talk: &'a Talk,
@@ -186,8 +201,8 @@ impl Climb<'_> {
             ..StudyRun::default()
         };
         let ended = self.fill(variant, &mut row);
-        let fatal = match ended {
-            Ok(()) => None,
+        let (fatal, map) = match ended {
+            Ok(map) => (None, map),
             Err(error) => {
                 // A row of the table is a line.
                 let lines = error.to_string();
@@ -198,15 +213,24 @@ impl Climb<'_> {
                     _ => StudyStatus::Failed,
                 };
                 let stops = matches!(error, DriverError::Interrupted { .. } | DriverError::Io(_));
-                stops.then_some(error)
+                (stops.then_some(error), None)
             }
         };
         self.talk.say(&table::outcome(&row));
+        row.wall_shear_correlation = self.correlation(&row, map.as_ref());
         self.runs.push(row);
+        self.maps.push(map);
         fatal.map_or(Ok(()), Err)
     }
 
-    fn fill(&self, variant: &Variant, row: &mut StudyRun) -> Result<(), DriverError> {
+    /// How alike the wall shear stress of a run and of that of the ladder of spacings at the same spacing is.
+    fn correlation(&self, row: &StudyRun, map: Option<&StressMap>) -> Option<f64> {
+        let is_base = |run: &StudyRun| run.ladder == ladder::SPACING && run.spacing_m == row.spacing_m;
+        let base = self.runs.iter().position(is_base)?;
+        map?.correlation(self.maps[base].as_ref()?)
+    }
+
+    fn fill(&self, variant: &Variant, row: &mut StudyRun) -> Result<Option<StressMap>, DriverError> {
         let mut case = ladder::with(self.case, &thinned(self.case, &variant.settings))?;
         // Particles made once and found again would make the second run look faster than it is.
         case.cache = None;
@@ -223,6 +247,8 @@ impl Climb<'_> {
         row.wall_clock_s = times[times.len() / 2];
         row.particles = last.particles;
         row.steps = last.steps;
+        let walls = last.effects.iter().filter(|e| e.on && WALLS.contains(&e.name.as_str()));
+        row.wall_s = plan.deforms().then(|| walls.filter_map(|e| e.seconds).sum());
         row.memory_bytes = last.effects.iter().filter_map(|e| e.bytes).sum();
         row.sound_speed_m_s = last.sound_speed_m_s;
         row.max_density_error = last.stability.max_density_error;
@@ -234,7 +260,7 @@ impl Climb<'_> {
             .zip(values)
             .map(|(target, value)| NamedValue { name: target.label.clone(), value })
             .collect();
-        Ok(())
+        StressMap::read(&out, &case, &plan)
     }
 
     fn analyse(&mut self) -> Vec<vaso_io::ErrorEntry> {

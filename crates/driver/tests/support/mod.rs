@@ -138,7 +138,7 @@ pub(crate) fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 pub(crate) fn assert_same(unbroken: &Path, resumed: &Path, what: &str) {
     let (a, b) = (content(unbroken), content(resumed));
     assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>(), "{what}: files");
-    for name in ["fluid.vtkhdf", "wall.vtkhdf", "openings.csv", "probes.csv"] {
+    for name in ["fluid.vtkhdf", "wall.vtkhdf", "lumen.vtkhdf", "openings.csv", "probes.csv"] {
         assert!(a.get(name) == b.get(name), "{what}: {name} differs");
     }
     let [a, b] = [unbroken, resumed].map(arrays);

@@ -4,7 +4,7 @@ use crate::wall::near::NearParticle;
 use glam::DVec3;
 
 /// Functions of the fit: s, s^2, s xi, s eta.
-const TERMS: usize = 4;
+pub(super) const TERMS: usize = 4;
 /// Weight of the curvature and of the tangential terms in the sum that is made smallest: small enough not to be felt where
 /// particles determine them, large enough to make them zero where none do.
 const RIDGE: f64 = 1e-6;
@@ -151,7 +151,7 @@ impl Line {
 }
 
 /// First row of the inverse of a symmetric matrix given by its lower half, by Cholesky; `None` where it has none.
-fn first_row_of_inverse(matrix: [[f64; TERMS]; TERMS]) -> Option<[f64; TERMS]> {
+pub(super) fn first_row_of_inverse(matrix: [[f64; TERMS]; TERMS]) -> Option<[f64; TERMS]> {
     let mut l = [[0.0; TERMS]; TERMS];
     for i in 0..TERMS {
         for j in 0..=i {

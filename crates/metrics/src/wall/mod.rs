@@ -1,5 +1,7 @@
 //! Wall shear stress at points of the vessel surface, and its indices over a cycle.
 
+mod anchors;
+mod carried;
 mod cycles;
 mod fit;
 mod indices;
@@ -10,6 +12,7 @@ mod shear;
 mod viscosity;
 mod window;
 
+pub use carried::{CarriedWall, WallPose};
 pub use cycles::ShearCycles;
 pub use indices::{LARGEST_INVERSE, PointIndices, SHEAR_DEFINITIONS, STRESS_DEFINITION, ShearCycle};
 pub use mesh::WallMesh;

@@ -78,6 +78,11 @@ impl WallShear {
         SUPPORT * self.spacing
     }
 
+    /// Distance from the wall of the farthest particle that a fit may use where particles are few \[m\].
+    pub fn wide_reach(&self) -> f64 {
+        WIDE_SUPPORT * self.spacing
+    }
+
     /// Wall shear stress of fluid particles at `position` \[m\] with `velocity` \[m/s\] along a wall at rest.
     ///
     /// `distance` has to be that of the surface the points lie on; it is asked once or twice a particle.
@@ -199,7 +204,7 @@ fn without_shear(gradient: DMat3, normal: DVec3) -> DMat3 {
 }
 
 /// `a b^T`.
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
+pub(super) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 

@@ -112,7 +112,7 @@ fn prices(report: &StudyReport) -> String {
 }
 
 fn runs(report: &StudyReport) -> String {
-    let columns = [
+    let mut columns = vec![
         Column::Words("run"),
         Column::Words("settings"),
         Column::Numbers("particles", ""),
@@ -122,11 +122,15 @@ fn runs(report: &StudyReport) -> String {
         Column::Numbers("memory", ""),
         Column::Numbers("error", "%"),
     ];
+    let has_walls = report.runs.iter().any(|run| run.wall_s.is_some());
+    let has_maps = report.runs.iter().any(|run| run.wall_shear_correlation.is_some());
+    columns.extend(has_walls.then_some(Column::Numbers("in the wall", "")));
+    columns.extend(has_maps.then_some(Column::Numbers("wall shear stress", "correlation")));
     let row = |run: &StudyRun| {
         let settings: Vec<String> = run.settings.iter().map(|[k, v]| format!("{k} = {v}")).collect();
         let on_front = report.front.contains(&run.name);
         let name = escape(&run.name);
-        vec![
+        let mut row = vec![
             if on_front { format!("<b>{name}</b>") } else { name },
             escape(&settings.join(", ")),
             count(run.particles.total()),
@@ -135,7 +139,10 @@ fn runs(report: &StudyReport) -> String {
             duration(run.predicted_s),
             bytes(run.memory_bytes),
             number(100.0 * run.error(&report.judged_by), 3),
-        ]
+        ];
+        row.extend(has_walls.then(|| run.wall_s.map_or("–".into(), duration)));
+        row.extend(has_maps.then(|| run.wall_shear_correlation.map_or("–".into(), |r| number(r, 4))));
+        row
     };
     let completed = report.runs.iter().filter(|run| run.status == StudyStatus::Completed);
     table(

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use vaso_generation::{Settings, fluid};
-use vaso_geometry::{LengthUnit, prepare, shapes};
+use vaso_geometry::{LengthUnit, Vessel, prepare, shapes};
 use vaso_particles::WallDistance;
 
 /// Radius of all pipes \[m\].
@@ -53,11 +53,15 @@ pub(crate) fn perturbed_pipe(spacing: f64) -> Vec<DVec3> {
     perturbed((-corner, corner.with_z(14.0 * spacing)), spacing, &Cylinder)
 }
 
+/// The surface of that pipe.
+pub(crate) fn pipe_vessel(spacing: f64) -> Vessel {
+    let pipe = shapes::pipe(RADIUS, 14.0 * spacing, DVec3::Z, 128);
+    prepare(pipe, Some(LengthUnit::Metre)).expect("a pipe")
+}
+
 /// The same pipe with relaxed particles.
 pub(crate) fn relaxed_pipe(spacing: f64) -> Vec<DVec3> {
-    let pipe = shapes::pipe(RADIUS, 14.0 * spacing, DVec3::Z, 128);
-    let vessel = prepare(pipe, Some(LengthUnit::Metre)).expect("a pipe");
-    fluid(&vessel, &Settings::new(spacing), &mut |_, _| {}).expect("the spacing fits").position
+    fluid(&pipe_vessel(spacing), &Settings::new(spacing), &mut |_, _| {}).expect("the spacing fits").position
 }
 
 /// Points on the middle of that pipe, off both ends by more than the reach of the fit.

@@ -1,5 +1,6 @@
 //! Wall shear stress of exact flows, seen through relaxed and disordered particles.
 
+mod carried;
 mod support;
 
 use glam::{DMat3, DQuat, DVec3};
