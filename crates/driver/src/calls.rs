@@ -17,6 +17,9 @@ const STIFF: f64 = 0.02;
 /// Shear rate below which the viscosity of blood is far above its limit \[1/s\].
 const SLOW: f64 = 50.0;
 
+/// Effects that every flow calls for.
+const ALWAYS: [&str; 2] = ["blood.density_blend", "blood.gradient_correction"];
+
 /// Numbers of a scene that decide.
 pub(crate) struct Scene<'a> {
     /// Openings with their conditions.
@@ -48,6 +51,9 @@ impl Scene<'_> {
     /// Says of effects whether the numbers call for them, and returns what to say where that is not what the case has.
     pub(crate) fn judge(&self, effects: &mut [EffectEntry]) -> Vec<String> {
         let mut warnings = Vec::new();
+        for left_out in effects.iter().filter(|e| ALWAYS.contains(&e.name.as_str()) && !e.on) {
+            warnings.push(format!("`{}` is off: {}", left_out.name, left_out.reason));
+        }
         if let Some((speed, diameter)) = self.inlet() {
             self.judge_thinning(speed, diameter, effects, &mut warnings);
         }

@@ -115,7 +115,7 @@ pub(crate) struct NewFlags {
 pub(crate) struct StudyFlags {
     #[command(flatten)]
     pub(crate) common: Common,
-    /// Ladders to climb, of spacing, sound-speed, precision, generator, wall, viscosity and coupling; default: those that the
+    /// Ladders to climb, of spacing, sound-speed, precision, operators, generator, wall, viscosity and coupling; default: those that the
     /// case calls for.
     #[arg(long, value_name = "NAME,...", value_parser = Wish::ladders)]
     ladders: Option<std::vec::Vec<String>>,

@@ -144,6 +144,7 @@ impl Plan {
         if let Some(share) = scene.numerics.density_blend {
             numbers.density_blend = share;
         }
+        numbers.gradient_correction = scene.numerics.gradient_correction;
         numbers.hold_mass = scene.numerics.hold_mass;
 
         let mut warnings = case.vessel.audit.notices.clone();
@@ -171,7 +172,7 @@ impl Plan {
             .run
             .period
             .map(|t| flow.inlet_radius * (std::f64::consts::TAU * density / (t * viscosity)).sqrt());
-        let mut effects = supported::effects(scene, &openings, wall.as_ref(), shell.as_ref());
+        let mut effects = supported::effects(scene, &numbers, &openings, wall.as_ref(), shell.as_ref());
         let is_thinning = rheology.is_some();
         let called = calls::Scene { openings: &openings, womersley, radial_strain, is_thinning };
         warnings.extend(called.judge(&mut effects));

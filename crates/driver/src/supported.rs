@@ -9,7 +9,7 @@ use crate::shell::PlannedShell;
 use crate::structure::PlannedWall;
 use crate::timing;
 use vaso_boundary::{Condition, Source};
-use vaso_fluid::Rheology;
+use vaso_fluid::{Numbers, Rheology};
 use vaso_generation::Ends;
 use vaso_io::EffectEntry;
 
@@ -140,6 +140,7 @@ pub(crate) fn blood(scene: &Scene) -> Result<PlannedBlood, DriverError> {
 /// Every effect the program knows, with the reason it is on or off.
 pub(crate) fn effects(
     scene: &Scene,
+    numbers: &Numbers,
     openings: &[PlannedOpening],
     wall: Option<&PlannedWall>,
     shell: Option<&PlannedShell>,
@@ -178,6 +179,11 @@ pub(crate) fn effects(
         };
         EffectEntry { name: name.into(), on: active, called_for: active, reason, seconds: None, bytes: None }
     };
+    // What every flow calls for, and a case may leave out.
+    let always = |name: &str, is_on: bool, why: &str, why_not: &str| EffectEntry {
+        on: is_on,
+        ..on(name, if is_on { why.into() } else { format!("{why_not}; called for: {why}") })
+    };
     let model = match scene.wall {
         Wall::Rigid => "rigid",
         Wall::RigidShell => "rigid-shell",
@@ -210,10 +216,17 @@ pub(crate) fn effects(
                 },
             )
         },
-        on("blood.density_blend", "holds the density of a closed stream against drift".into()),
-        on(
+        always(
+            "blood.density_blend",
+            numbers.density_blend > 0.0,
+            "holds the density of a closed stream against drift",
+            "`numerics.density_blend` is 0",
+        ),
+        always(
             "blood.gradient_correction",
-            "kernel sums at a wall or in disorder are 1 to 3 % off without it".into(),
+            numbers.gradient_correction,
+            "kernel sums at a wall or in disorder are 1 to 3 % off without it",
+            "`numerics.gradient_correction` is false",
         ),
         on("blood.transport_velocity", "keeps particles evenly spread along streamlines".into()),
         of_model(

@@ -50,6 +50,33 @@ fn check_answers_in_json() {
     assert!(answer["effects"].as_array().is_some_and(|e| e.iter().any(|e| e["on"] == false)));
 }
 
+/// What every flow calls for can be left out, and `check` says what that costs.
+#[test]
+fn check_says_what_is_left_out_and_called_for() {
+    let check = |settings: &[&str]| {
+        let mut command = vaso();
+        command.arg("check").arg(root().join("cases/carotid")).arg("--json");
+        settings.iter().for_each(|setting| {
+            command.args(["--set", setting]);
+        });
+        json(&mut command)
+    };
+    let state = |answer: &Value, name: &str| {
+        let effects = answer["effects"].as_array().expect("effects are listed");
+        let effect = effects.iter().find(|e| e["name"] == name).expect("it is one of them");
+        (effect["on"] == true, effect["called_for"] == true)
+    };
+    let names = ["blood.density_blend", "blood.gradient_correction"];
+    let without = check(&["numerics.density_blend=0", "numerics.gradient_correction=false"]);
+    let with = check(&[]);
+    for name in names {
+        assert_eq!((state(&with, name), state(&without, name)), ((true, true), (false, true)), "{name}");
+        let said = format!("`{name}` is off");
+        assert!(without["warnings"].to_string().contains(&said), "{}", without["warnings"]);
+        assert!(!with["warnings"].to_string().contains(&said));
+    }
+}
+
 #[test]
 fn check_reads_bare_surfaces() {
     let Some(data) = data() else { return };

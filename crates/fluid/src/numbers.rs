@@ -23,6 +23,8 @@ pub struct Numbers {
     ///
     /// The full reset (1) is the main source of noise; 0 lets the density drift.
     pub density_blend: f64,
+    /// Kernel gradients are multiplied by the inverse of their moments (Bonet and Lok 1999), by which they are exact for what is linear.
+    pub gradient_correction: bool,
     /// Where walls are at rest, the mean density follows the mass in the vessel instead of the kernel sum.
     pub hold_mass: bool,
     /// Limiter of the velocity-jump dissipation (Zhang, Hu and Adams 2017) between fluid particles away from caps. Walls and caps have in
@@ -54,6 +56,7 @@ impl Numbers {
             spacing,
             smoothing_length: 1.3 * spacing,
             density_blend: 0.03,
+            gradient_correction: true,
             hold_mass: false,
             dissipation_limiter: 4.0,
             shift_strength: 0.2,

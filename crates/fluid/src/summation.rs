@@ -32,6 +32,7 @@ impl<R: Real> Fluid<R> {
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
         let s0 = self.lattice_sum;
+        let corrects = self.numbers.gradient_correction;
         let mass = &self.state.mass;
         let (rows, wall) = (&self.rows, &self.wall);
         let (isa, frame) = (self.isa, &self.frame);
@@ -67,7 +68,7 @@ impl<R: Real> Fluid<R> {
                     }
                     let moment = Sym3(std::array::from_fn(|q| gradient * support * (f[4 + q] + w[4 + q])));
                     let frozen = &mut frozen[k];
-                    frozen.correction = Sym3::correction(&moment);
+                    frozen.correction = if corrects { Sym3::correction(&moment) } else { Sym3::IDENTITY };
                     frozen.fluid_gradient = -gradient * DVec3::new(f[1], f[2], f[3]);
                     frozen.wall_gradient = -gradient * DVec3::new(w[1], w[2], w[3]);
                     frozen.wall_area = gradient * w[10];

@@ -163,6 +163,7 @@ impl Builder<'_> {
             sound_speed: section.optional_number("sound_speed"),
             sound_speed_factor: section.number("sound_speed_factor"),
             density_blend: section.optional_number("density_blend"),
+            gradient_correction: section.flag("gradient_correction"),
             hold_mass: section.flag("hold_mass"),
             smoothing_length: section.number("smoothing_length"),
             seed: section.count("seed"),

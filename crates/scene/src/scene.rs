@@ -175,6 +175,8 @@ pub struct Numerics {
     /// Share of the summed density mixed in at every advective step, from 0 to 1; `None` chooses it from the
     /// resolution.
     pub density_blend: Option<f64>,
+    /// Kernel gradients are corrected where a kernel lacks neighbours or finds them uneven.
+    pub gradient_correction: bool,
     /// The mean density of a vessel at rest follows the mass in it instead of the kernel sum.
     pub hold_mass: bool,
     /// Smoothing length in spacings; the support radius is twice this.

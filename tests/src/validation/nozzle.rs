@@ -17,7 +17,7 @@ pub const CASE: Case = Case {
     setup: "Tube of 12 mm, cone of 22.685 mm down to a throat of 4 mm and 40 mm, and back to 12 mm at once; 5.206 ml/s of \
             1056 kg/m^3 and 3.5 mPa s as a parabola 15 mm before the cone, pressure 40 mm behind the expansion. Throat D/10, \
             0.45 s from rest, mean of the last 0.1 s. Velocity within a twentieth of the diameter from the axis.",
-    reference: "Particle image velocimetry of five laboratories, mean of those that measured at a station (Hariharan et al. 2011, \
+    reference: "Particle image velocimetry, five sets by three laboratories, mean of those that measured at a station (Hariharan et al. 2011, \
                 doi 10.17917/C78G69). At the exit of the throat they are 5 % apart.",
     remark: "The jet behind the expansion is only 40 mm long here, and needs longer than the run to settle. At ten spacings across \
              the throat the flow is that of a liquid more viscous than it: the profile in the throat is nearer to the parabola \

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::error::DriverError;
 use crate::plan::Plan;
 use vaso_scene::material::Viscosity;
-use vaso_scene::{Condition, Generator, Precision, Wall, Word};
+use vaso_scene::{Condition, Field, Generator, Precision, Scene, Wall, Word};
 
 /// Settings of a case, as for `--set`.
 pub(crate) type Settings = Vec<(String, String)>;
@@ -22,7 +22,7 @@ pub(crate) struct Variant {
 
 /// Ladders by name, in the order they are climbed.
 const LADDERS: &[&str] =
-    &["spacing", "sound-speed", "precision", "generator", "wall", "viscosity", "coupling"];
+    &["spacing", "sound-speed", "precision", "operators", "generator", "wall", "viscosity", "coupling"];
 /// Name of the first ladder, which orders and prices come from.
 pub(crate) const SPACING: &str = "spacing";
 /// Spacings of the default ladder over that of the case: each refinement is by 1.3, the least that Celik et al. 2008 advise.
@@ -31,9 +31,6 @@ const FACTORS: [f64; 3] = [1.69, 1.3, 1.0];
 const SOUND_SPEEDS: [f64; 2] = [0.5, 2.0];
 /// Window of an outlet model that takes up the flow once a window, over the period; and without one \[s\], as published.
 const WINDOW: (f64, f64) = (0.01, 6e-3);
-
-/// Layers of a wall at rest.
-const RIGID_LAYERS: u8 = 4;
 
 /// Which ladders are climbed.
 #[derive(Clone, Debug, Default)]
@@ -151,6 +148,10 @@ fn rungs(ladder: &str, case: &Case, plan: &Plan, same_physics: bool) -> Vec<(Str
             };
             vec![(other.word().to_owned(), one("numerics.precision", other.word()))]
         }
+        "operators" if scene.numerics.gradient_correction => {
+            vec![("plain".to_owned(), one("numerics.gradient_correction", "false"))]
+        }
+        "operators" => vec![("corrected".to_owned(), one("numerics.gradient_correction", "true"))],
         "generator" => {
             let other = match scene.particles.generator {
                 Generator::RelaxedLattice(_) => "multiblock",
@@ -167,14 +168,9 @@ fn rungs(ladder: &str, case: &Case, plan: &Plan, same_physics: bool) -> Vec<(Str
                 Wall::Shell(_) => &["solid", "rigid"],
                 Wall::Solid(_) => &["shell", "rigid"],
             };
-            let layers = format!("{:.4e} m", f64::from(RIGID_LAYERS) * scene.particles.spacing);
-            let settings = |model: &str| {
-                let mut settings = one("wall.model", model);
-                // The thickness in the file is that of the tissue.
-                if model == "rigid" {
-                    settings.push(("wall.thickness".into(), layers.clone()));
-                }
-                settings
+            let settings = |model: &str| match model {
+                "rigid" if !matches!(scene.wall, Wall::RigidShell) => at_rest(scene),
+                _ => one("wall.model", model),
             };
             others.iter().map(|model| ((*model).to_owned(), settings(model))).collect()
         }
@@ -207,6 +203,16 @@ fn rungs(ladder: &str, case: &Case, plan: &Plan, same_physics: bool) -> Vec<(Str
     }
 }
 
+/// Settings that put a wall at rest which deforms. What a case says of its tissue, and the fields that only such a wall has, would be refused.
+fn at_rest(scene: &Scene) -> Settings {
+    let fields = scene.output.fields.iter().filter(|f| !matches!(f, Field::Displacement | Field::VonMises));
+    let fields: Vec<String> = fields.map(|field| format!("\"{}\"", field.word())).collect();
+    vec![
+        ("wall".into(), "{ model = \"rigid\" }".into()),
+        ("output.fields".into(), format!("[{}]", fields.join(", "))),
+    ]
+}
+
 /// A text as part of the name of a folder.
 fn safe(text: &str) -> String {
     let kept = text.chars().map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '-' });
@@ -223,6 +229,22 @@ mod tests {
         let rung = at_spacing(3.968_751_234e-4);
         assert_eq!(rung.name, "spacing-0.3969mm");
         assert_eq!(rung.settings, [("particles.spacing".to_owned(), "0.00039688 m".to_owned())]);
+    }
+
+    /// Of a wall that deforms all that is said of its tissue would be refused for one at rest.
+    #[test]
+    fn every_rung_of_the_walls_can_be_planned() {
+        let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/common-carotid");
+        let case = Case::load(&file, &[]).expect("it is a case");
+        let wish = Wish { ladders: Some(vec!["wall".into()]), ..Wish::default() };
+        let variants = climb(&case, &wish, false).expect("it can be planned");
+        let rungs: Vec<&Variant> = variants.iter().filter(|v| v.ladder == "wall").collect();
+        let names: Vec<&str> = rungs.iter().map(|v| v.name.as_str()).collect();
+        assert_eq!(names, ["wall-solid", "wall-rigid"]);
+        for variant in rungs {
+            let changed = with(&case, &variant.settings).unwrap_or_else(|e| panic!("{}: {e}", variant.name));
+            Plan::new(&changed).unwrap_or_else(|e| panic!("{}: {e}", variant.name));
+        }
     }
 
     #[test]
