@@ -90,12 +90,6 @@ impl Anchors {
         };
         (0..self.offset.len()).into_par_iter().with_min_len(1024).map(mean).collect()
     }
-
-    pub(super) fn bytes(&self) -> usize {
-        size_of::<DVec3>() * self.offset.capacity()
-            + 4 * (self.start.capacity() + self.particle.capacity())
-            + 8 * self.weight.capacity()
-    }
 }
 
 /// The particles near the surface, each with its foot on it.

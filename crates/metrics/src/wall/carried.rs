@@ -104,15 +104,6 @@ impl CarriedWall {
     pub fn distance(&self, pose: &WallPose) -> SignedDistance {
         SignedDistance::sheet(&Surface { vertices: pose.position.clone(), triangles: self.triangles.clone() })
     }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        self.anchors.bytes()
-            + size_of::<DVec3>() * self.normal.capacity()
-            + size_of::<[u32; 3]>() * self.triangles.capacity()
-            + size_of::<DMat3>() * self.inverse.capacity()
-            + 4 * (self.around.capacity() + self.start.capacity())
-    }
 }
 
 /// Two edges of a triangle and its unit normal; their determinant is twice its area.
