@@ -32,7 +32,7 @@ pub use generated::{
     Blocks, CompareReport, ComparedGenerator, Extrusion, Histogram, IntersectionEntry, ParticlesReport,
     Quality, ShellReport, WallReport,
 };
-pub use output::OutputDir;
+pub use output::{OutputDir, wall_surface};
 pub use series::{
     FieldInfo, Frame, FrameData, SeriesInfo, SeriesReader, SeriesWriter, SurfaceField, SurfaceFrame,
     SurfaceMesh, SurfaceSeriesWriter, read_series_info,

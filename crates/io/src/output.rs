@@ -17,6 +17,12 @@ const OUTPUTS: &[&str] = &[
     "summary.json",
 ];
 
+/// The series in the folder `out` that tells of the wall as a surface: where `wall.vtkhdf` has the particles of a solid, that is a file of its
+/// own. Nothing where the run has written neither.
+pub fn wall_surface(out: &Path) -> Option<PathBuf> {
+    ["lumen.vtkhdf", "wall.vtkhdf"].map(|name| out.join(name)).into_iter().find(|path| path.exists())
+}
+
 /// An output folder (`OUT`).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputDir {

@@ -5,7 +5,9 @@ use crate::picture::{Quantity, draw_surface};
 use crate::scale::{count, number};
 use crate::vessel::{WIDTH, enclosed, note};
 use std::path::Path;
-use vaso_io::{Distribution, FieldInfo, IoError, LOW_TAWSS, SeriesReader, Summary, WallSummary, schema};
+use vaso_io::{
+    Distribution, FieldInfo, IoError, LOW_TAWSS, SeriesReader, Summary, WallSummary, schema, wall_surface,
+};
 
 /// What is drawn, where the series has it: the others are ratios whose few large values would hide all else.
 const DRAWN: [(Quantity, &str); 4] = [
@@ -17,19 +19,13 @@ const DRAWN: [(Quantity, &str); 4] = [
 
 /// Pictures and numbers of the wall.
 pub(crate) fn wall(out: &Path, summary: &Summary) -> String {
-    // Where `wall.vtkhdf` has the particles of a solid, the surface is in a file of its own.
-    let names = ["lumen.vtkhdf", "wall.vtkhdf"];
-    let Some((name, path)) =
-        names.map(|name| (name, out.join(name))).into_iter().find(|(_, path)| path.exists())
-    else {
-        return String::new();
-    };
+    let Some(path) = wall_surface(out) else { return String::new() };
     let reader = match SeriesReader::open(&path) {
         Ok(reader) => reader,
         Err(error) => return note(&error.into()),
     };
     let figures = figures(&reader, &path, summary).unwrap_or_else(|error| note(&error.into()));
-    let numbers = summary.wall.as_ref().map(|wall| numbers(wall, name, &reader.info().fields));
+    let numbers = summary.wall.as_ref().map(|wall| numbers(wall, &path, &reader.info().fields));
     figures + &numbers.unwrap_or_default()
 }
 
@@ -63,7 +59,7 @@ fn figures(reader: &SeriesReader, path: &Path, summary: &Summary) -> Result<Stri
 }
 
 /// How stresses and indices are distributed over the wall, and what they are.
-fn numbers(wall: &WallSummary, file: &str, fields: &[FieldInfo]) -> String {
+fn numbers(wall: &WallSummary, file: &Path, fields: &[FieldInfo]) -> String {
     let known = [
         ("wall shear stress", schema::WSS, "Pa", wall.wss_pa),
         ("time-averaged wall shear stress", schema::TAWSS, "Pa", wall.tawss_pa),
@@ -113,7 +109,7 @@ fn numbers(wall: &WallSummary, file: &str, fields: &[FieldInfo]) -> String {
 }
 
 /// Formula and source of each quantity, as the file has them.
-fn definitions(told: &[(&str, &str, &str, Distribution)], file: &str, fields: &[FieldInfo]) -> String {
+fn definitions(told: &[(&str, &str, &str, Distribution)], file: &Path, fields: &[FieldInfo]) -> String {
     let rows: Vec<Vec<String>> = told
         .iter()
         .filter_map(|(_, name, _, _)| {
@@ -127,5 +123,6 @@ fn definitions(told: &[(&str, &str, &str, Distribution)], file: &str, fields: &[
         return String::new();
     }
     let columns = [Column::Words("quantity"), Column::Words("definition"), Column::Words("source")];
-    table(&format!("What these numbers are, as the attributes in {file} say"), &columns, &rows)
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    table(&format!("What these numbers are, as the attributes in {name} say"), &columns, &rows)
 }

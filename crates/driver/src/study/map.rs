@@ -5,7 +5,7 @@ use crate::error::DriverError;
 use crate::observe::WallObserver;
 use crate::plan::Plan;
 use std::path::Path;
-use vaso_io::{FrameData, SeriesReader, schema};
+use vaso_io::{FrameData, SeriesReader, schema, wall_surface};
 
 /// Magnitude of the wall shear stress over the wall, time-averaged where cycles were run.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,9 +25,7 @@ impl StressMap {
         if !plan.wall_metrics {
             return Ok(None);
         }
-        // Where `wall.vtkhdf` has the particles of a solid, the surface is in the other.
-        let names = ["lumen.vtkhdf", "wall.vtkhdf"].map(|name| out.join(name));
-        let Some(path) = names.into_iter().find(|path| path.exists()) else { return Ok(None) };
+        let Some(path) = wall_surface(out) else { return Ok(None) };
         let Some(frame) = SeriesReader::open(&path)?.last_frame()? else { return Ok(None) };
         let area = WallObserver::counted(case, plan);
         Ok(magnitude(&frame).filter(|value| value.len() == area.len()).map(|value| Self { value, area }))
