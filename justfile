@@ -8,8 +8,12 @@ default:
 demo case="cases/carotid":
     cargo run --release -- run {{case}} --force
 
-# All tests, optimised and with the debug assertions of the dev profile.
+# All tests, with the build that users run.
 test:
+    cargo test --release --workspace
+
+# The same with checks of overflow and debug assertions; twice as long.
+test-debug:
     cargo test --workspace
 
 # What a change must pass before it lands, besides the tests.
@@ -17,7 +21,7 @@ check:
     cargo fmt --all --check
     cargo clippy --workspace --all-targets -- -D warnings
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
-    cargo test -p vaso-tests --test tidy
+    cargo test --release -p vaso-tests --test tidy
 
 # The report of a case in a headless browser, as a reader uses it; pictures in target/report.
 report-test report="cases/carotid/out/report.html":
@@ -25,11 +29,11 @@ report-test report="cases/carotid/out/report.html":
 
 # Flows against formulas and published numbers, with the figures printed.
 validate:
-    cargo test -p vaso-tests --test 'validation*' --test carotid -- --nocapture
+    cargo test --release -p vaso-tests --lib -- flows::validation flows::carotid --nocapture
 
 # The same at the finest spacings; a quarter of an hour on two cores, the carotid with VASO_DATA set.
 validate-long:
-    cargo test -p vaso-tests --test validation --test carotid -- --ignored --nocapture
+    cargo test --release -p vaso-tests --lib -- flows::validation flows::carotid --ignored --nocapture
 
 # Solids alone over long times: beams, columns, energy; half an hour on two cores, the columns with VASO_DATA set.
 validate-solids:
@@ -38,11 +42,11 @@ validate-solids:
 # Shells alone: roofs, cylinders, hemispheres, energy over long times, relaxed tubes; five minutes on two cores.
 validate-shells:
     cargo test --release -p vaso-shell --tests -- --include-ignored --nocapture
-    cargo test -p vaso-tests --test shells -- --include-ignored --nocapture
+    cargo test --release -p vaso-tests --lib -- flows::shells --include-ignored --nocapture
 
 # Blood in elastic tubes, with the figures printed; a quarter of an hour on two cores.
 validate-walls:
-    cargo test --release -p vaso-tests --test elastic_tube --test moving_wall --test shell_walls -- --include-ignored --nocapture
+    cargo test --release -p vaso-tests --lib -- flows::elastic_tube flows::moving_wall flows::shell_walls --include-ignored --nocapture
 
 # Micro-benchmarks.
 bench:
@@ -80,7 +84,7 @@ docs:
 
 # The messages of the wrong cases in tests/bad, written anew: read the difference before it is committed.
 bless:
-    VASO_BLESS=1 cargo test -p vaso-driver --test bad
+    VASO_BLESS=1 cargo test --release -p vaso-driver --test bad
 
 # A target of the fuzzer (stl, vtp, case, prepare) for some seconds; needs cargo-fuzz and a C++ compiler.
 fuzz target="vtp" seconds="60":

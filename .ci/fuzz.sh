@@ -6,9 +6,10 @@ cd "$(dirname "$0")/.."
 
 seconds=${FUZZ_SECONDS:-8}
 
-# The profile is that of the project's tests, so their target folder has the dependencies already.
+# The profile is that of the project's tests, so their target folder has the dependencies already; the fuzzer itself runs
+# with checks of overflow.
 CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target} \
-    cargo test --manifest-path fuzz/Cargo.toml --no-default-features --locked
+    cargo test --release --manifest-path fuzz/Cargo.toml --no-default-features --locked
 
 if ! command -v c++ >/dev/null; then
     printf 'skipped: libFuzzer needs a C++ compiler; only the corpus and its mutations were run\n'

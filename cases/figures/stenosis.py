@@ -93,7 +93,7 @@ def verdict(energy: dict[str, float], names: list[str]) -> str:
     """Whether blood on the axis gains energy, in words: it must not."""
     before, rest = energy[names[0]], [energy[name] for name in names[1:]]
     gain = max(rest) / before - 1.0
-    # A twentieth is what such means may be off by, see tests/tests/narrowing.rs.
+    # A twentieth is what such means may be off by, see tests/src/flows/narrowing.rs.
     if gain > 0.05:
         return f"**The core of the jet is too fast:** the energy of the blood on the axis rises by {readme.percent(gain, 0)}, which it cannot."
     return f"On the axis blood gains no energy: `p + rho u^2 / 2` is {readme.percent(max(rest) / before, 0)} of what it was before at most, and means such as these are good to a twentieth."

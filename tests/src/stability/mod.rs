@@ -65,7 +65,7 @@ pub const CASES: &[Hard] = &[
         title: "Walls as heavy as blood",
         breaks: "Explicit coupling pumps energy into a light soft wall (added mass).",
         held: Held::Elsewhere(
-            "`tests/tests/shell_walls.rs` and `moving_wall.rs`: the energy of the wall is bounded by the work put in, density ratios 0.5 \
+            "`tests/src/flows/shell_walls.rs` and `moving_wall.rs`: the energy of the wall is bounded by the work put in, density ratios 0.5 \
              to 1.2, solids of a spacing and shells from a twentieth of one to four",
         ),
     },
@@ -151,7 +151,7 @@ pub const CASES: &[Hard] = &[
         breaks: "A sound wave that goes to and fro for ever, or a jet from one outlet to the other.",
         held: Held::Here(
             "The carotid of the demo at 0.9 mm between Windkessels that start at 80 and at 78 mmHg. The common level is out of the \
-             equation of state; one that stays in it leaves no trace (`tests/tests/openings.rs`).",
+             equation of state; one that stays in it leaves no trace (`tests/src/flows/openings.rs`).",
             flows::wrong_start,
         ),
     },
@@ -207,7 +207,9 @@ pub const CASES: &[Hard] = &[
         id: "H22",
         title: "Broken off, gone on, on more threads",
         breaks: "Another result.",
-        held: Held::Elsewhere("`crates/driver/tests/resume.rs`, `tests/tests/determinism.rs`: the same bits"),
+        held: Held::Elsewhere(
+            "`crates/driver/tests/resume.rs`, `tests/src/flows/determinism.rs`: the same bits",
+        ),
     },
 ];
 

@@ -40,7 +40,7 @@ const HEAD: &str = "\
 
 Made by `cargo run --release -p vaso-tests --example stability`; do not edit. What usually breaks codes of this kind, how it is set
 up here, and how far from the bound it stays. Every run also ends in finite numbers, which is not repeated below. The runs are coarse
-enough for each change to be tested by them (`tests/tests/stability.rs`): they show that nothing breaks, not that it is accurate.
+enough for each change to be tested by them (`tests/src/flows/stability.rs`): they show that nothing breaks, not that it is accurate.
 ";
 
 /// The page.

@@ -61,7 +61,7 @@ pub fn render(results: &Results) -> String {
          D/n is a spacing of an nth of the diameter. Errors have a sign where one has a meaning. A tolerance in brackets is\n\
          not asked for: nothing is at that resolution, and the tests hold what was measured with a little room. Times are\n\
          those of the loop on a machine busy with other work, up to five times those of a quiet one. The same cases run\n\
-         coarser and shorter with the tests (`tests/tests/validation.rs`).\n",
+         coarser and shorter with the tests (`tests/src/flows/validation.rs`).\n",
     );
     page += "\n| case | figures | within what is asked | missed | largest number of particles | time |\n|---|---|---|---|---|---|\n";
     for case in CASES {
