@@ -33,7 +33,7 @@ validate:
 
 # The same at the finest spacings; a quarter of an hour on two cores, the carotid with VASO_DATA set.
 validate-long:
-    cargo test --release -p vaso-tests --lib -- flows::validation flows::carotid --ignored --nocapture
+    cargo test --release -p vaso-tests --lib -- flows::validation flows::carotid flows::shear_thinning --ignored --nocapture
 
 # Solids alone over long times: beams, columns, energy; half an hour on two cores, the columns with VASO_DATA set.
 validate-solids:
@@ -46,7 +46,7 @@ validate-shells:
 
 # Blood in elastic tubes, with the figures printed; a quarter of an hour on two cores.
 validate-walls:
-    cargo test --release -p vaso-tests --lib -- flows::elastic_tube flows::moving_wall flows::shell_walls --include-ignored --nocapture
+    cargo test --release -p vaso-tests --lib -- flows::elastic_tube flows::fibers flows::moving_wall flows::openings flows::shell_walls --include-ignored --nocapture
 
 # Micro-benchmarks.
 bench:
@@ -55,6 +55,10 @@ bench:
 # The page of the speed, measured anew; five minutes on two quiet cores.
 ladder:
     cargo bench -p vaso-benches --bench ladder -- --write
+
+# The page of what each effect costs, measured anew; two minutes.
+effects:
+    cargo bench -p vaso-benches --bench effects -- --write
 
 # The figures of accuracy and speed, measured anew; a quarter of an hour on two cores.
 figures:

@@ -11,7 +11,7 @@ use vaso_kernels::{
     CHUNK, CellGrid, Frame, Gather, PairLaw, Records, Rows, SearchSet, Store, Wendland, sweep,
 };
 use vaso_solid::law::{force, strain};
-use vaso_solid::{Hourglass, Isa, Material, NeoHookean, Numbers, Particles, Real, Solid};
+use vaso_solid::{Isa, Material, NeoHookean, Numbers, Particles, Real, Solid};
 
 /// Particles along an edge: 2e5 in all, more than the caches hold.
 const EDGE: usize = 58;
@@ -100,8 +100,7 @@ fn substeps<R: Real>(criterion: &mut Criterion, position: &[DVec3]) {
     let material = Material::NeoHookean(NeoHookean::new(4e5, 0.45).expect("in range"));
     let usual = Numbers::new(1120.0, SPACING);
     let undamped = Numbers { damping: 0.0, ..usual };
-    let variational = Numbers { hourglass: Hourglass { variational: true, ..usual.hourglass }, ..usual };
-    for (name, numbers) in [("usual", usual), ("undamped", undamped), ("variational", variational)] {
+    for (name, numbers) in [("usual", usual), ("undamped", undamped)] {
         for isa in Isa::available() {
             let particles = Particles { position, volume: &volume, ..Particles::default() };
             let mut solid = Solid::<R>::new(&particles, material, numbers, isa).expect("a sound body");

@@ -18,7 +18,7 @@ const STIFF: f64 = 0.02;
 const SLOW: f64 = 50.0;
 
 /// Effects that every flow calls for.
-const ALWAYS: [&str; 2] = ["blood.density_blend", "blood.gradient_correction"];
+const ALWAYS: [&str; 3] = ["blood.density_blend", "blood.gradient_correction", "blood.transport_velocity"];
 
 /// Numbers of a scene that decide.
 pub(crate) struct Scene<'a> {

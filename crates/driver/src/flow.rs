@@ -250,7 +250,10 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         }
         self.time = if until - (self.time + elapsed) < 1e-9 * duration { until } else { self.time + elapsed };
         self.advective_steps += 1;
-        ledger.time(Stage::Transport, || fluid.transport(openings.zones(), elapsed / full));
+        fluid.note_part(elapsed / full);
+        if fluid.numbers().transport_velocity {
+            ledger.time(Stage::Transport, || fluid.transport(openings.zones()));
+        }
         ledger.time(Stage::Guard, || self.readings = openings.measure(&fluid.state, self.time));
         self.guard()
     }

@@ -145,6 +145,7 @@ impl Plan {
             numbers.density_blend = share;
         }
         numbers.gradient_correction = scene.numerics.gradient_correction;
+        numbers.transport_velocity = scene.numerics.transport_velocity;
         numbers.hold_mass = scene.numerics.hold_mass;
 
         let mut warnings = case.vessel.audit.notices.clone();

@@ -119,7 +119,8 @@ pub fn plan(case: &Case, plan: &Plan) -> String {
     );
     let _ = writeln!(
         out,
-        "advect   exchange · sort · rows · summation · viscosity · transport · guard   at most {:.3} ms",
+        "advect   exchange · sort · rows · summation · viscosity{} · guard   at most {:.3} ms",
+        if n.transport_velocity { " · transport" } else { "" },
         1e3 * n.advective_step(0.0, 0.0)
     );
     let _ = writeln!(

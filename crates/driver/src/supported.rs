@@ -228,7 +228,12 @@ pub(crate) fn effects(
             "kernel sums at a wall or in disorder are 1 to 3 % off without it",
             "`numerics.gradient_correction` is false",
         ),
-        on("blood.transport_velocity", "keeps particles evenly spread along streamlines".into()),
+        always(
+            "blood.transport_velocity",
+            numbers.transport_velocity,
+            "keeps particles evenly spread along streamlines",
+            "`numerics.transport_velocity` is false",
+        ),
         of_model(
             "wall.rigid",
             matches!(scene.wall, Wall::Rigid),

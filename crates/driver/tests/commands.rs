@@ -66,8 +66,12 @@ fn check_says_what_is_left_out_and_called_for() {
         let effect = effects.iter().find(|e| e["name"] == name).expect("it is one of them");
         (effect["on"] == true, effect["called_for"] == true)
     };
-    let names = ["blood.density_blend", "blood.gradient_correction"];
-    let without = check(&["numerics.density_blend=0", "numerics.gradient_correction=false"]);
+    let names = ["blood.density_blend", "blood.gradient_correction", "blood.transport_velocity"];
+    let without = check(&[
+        "numerics.density_blend=0",
+        "numerics.gradient_correction=false",
+        "numerics.transport_velocity=false",
+    ]);
     let with = check(&[]);
     for name in names {
         assert_eq!((state(&with, name), state(&without, name)), ((true, true), (false, true)), "{name}");

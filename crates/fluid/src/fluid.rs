@@ -165,7 +165,7 @@ impl<R: Real> Fluid<R> {
         &self.numbers
     }
 
-    /// Part of a full advective step that the last one was, see [`Self::transport`].
+    /// Part of a full advective step that the last one was, see [`Self::note_part`].
     pub fn part(&self) -> f64 {
         self.part
     }

@@ -25,6 +25,8 @@ pub struct Numbers {
     pub density_blend: f64,
     /// Kernel gradients are multiplied by the inverse of their moments (Bonet and Lok 1999), by which they are exact for what is linear.
     pub gradient_correction: bool,
+    /// Particles are shifted against their kernel-gradient residual (Adami, Hu and Adams 2013).
+    pub transport_velocity: bool,
     /// Where walls are at rest, the mean density follows the mass in the vessel instead of the kernel sum.
     pub hold_mass: bool,
     /// Limiter of the velocity-jump dissipation (Zhang, Hu and Adams 2017) between fluid particles away from caps. Walls and caps have in
@@ -57,6 +59,7 @@ impl Numbers {
             smoothing_length: 1.3 * spacing,
             density_blend: 0.03,
             gradient_correction: true,
+            transport_velocity: true,
             hold_mass: false,
             dissipation_limiter: 4.0,
             shift_strength: 0.2,

@@ -38,11 +38,9 @@ impl<R: Real> Fluid<R> {
     /// and out slowly nothing else parts particles that have come close along the normal, so pairs that are too close are moved
     /// apart there ([`Separation`]). Both move by the same, so no volume is carried along.
     ///
-    /// `part` is that of a full advective step which this one was: shift and blend of the density keep their pace in time where a step
-    /// ends early.
-    pub fn transport(&mut self, zones: &[CapZone], part: f64) {
-        self.part = part;
-        let numbers = self.numbers;
+    /// Of a step that ended early it takes only a part, see [`Self::note_part`].
+    pub fn transport(&mut self, zones: &[CapZone]) {
+        let (numbers, part) = (self.numbers, self.part);
         let h2 = numbers.smoothing_length * numbers.smoothing_length;
         let limit = part * numbers.shift_limit * numbers.spacing;
         let support = self.kernel.support();
@@ -82,6 +80,12 @@ impl<R: Real> Fluid<R> {
                     }
                 }
             });
+    }
+
+    /// Notes which part of a full advective step this one was: shift and blend of the density keep their pace in time where a step
+    /// ends early.
+    pub fn note_part(&mut self, part: f64) {
+        self.part = part;
     }
 
     /// Puts particles that touch the wall back into the lumen and stops their motion towards it.

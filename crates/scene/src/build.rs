@@ -164,6 +164,7 @@ impl Builder<'_> {
             sound_speed_factor: section.number("sound_speed_factor"),
             density_blend: section.optional_number("density_blend"),
             gradient_correction: section.flag("gradient_correction"),
+            transport_velocity: section.flag("transport_velocity"),
             hold_mass: section.flag("hold_mass"),
             smoothing_length: section.number("smoothing_length"),
             seed: section.count("seed"),

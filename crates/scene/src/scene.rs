@@ -177,6 +177,8 @@ pub struct Numerics {
     pub density_blend: Option<f64>,
     /// Kernel gradients are corrected where a kernel lacks neighbours or finds them uneven.
     pub gradient_correction: bool,
+    /// Particles are moved apart beside their flow, so that they stay evenly spread.
+    pub transport_velocity: bool,
     /// The mean density of a vessel at rest follows the mass in it instead of the kernel sum.
     pub hold_mass: bool,
     /// Smoothing length in spacings; the support radius is twice this.

@@ -178,6 +178,7 @@ pub(crate) const KEYS: &[Key] = &[
     key("numerics.sound_speed_factor", Number(Range::closed(3.0, 200.0)), Default("10"), "Least ratio of the chosen sound speed to the expected largest velocity."),
     key("numerics.density_blend", Number(Range::closed(0.0, 1.0)), Optional("0.03, with a wall that deforms 0.003"), "Share of the summed density mixed in at every advective step."),
     key("numerics.gradient_correction", Flag, Default("true"), "Kernel gradients are corrected where a kernel lacks neighbours or finds them uneven; without it errors at walls do not fall with the spacing."),
+    key("numerics.transport_velocity", Flag, Default("true"), "Particles are moved apart beside their flow, so that they stay evenly spread; without it they line up along streamlines and leave gaps."),
     key("numerics.hold_mass", Flag, Default("false"), "The mean density of a vessel at rest follows the mass in it instead of the kernel sum; for long vessels whose flow is slowed down in every beat."),
     key("numerics.smoothing_length", Number(Range::closed(1.0, 2.0)), Default("1.3"), "Smoothing length in spacings; the support radius is twice this."),
     key("numerics.seed", ANY_U64, Default("0"), "Seed of everything random."),

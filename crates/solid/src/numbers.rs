@@ -2,21 +2,6 @@
 
 use crate::error::{SolidError, within};
 
-/// Hourglass control: a spring against what neighbours do beside the mean deformation gradient of both.
-///
-/// Its energy is `1/4 sum_ab V_a V_b k E (|W'|/r) |u_ab - (G_a + G_b)/2 X_ab|^2` with the displacement gradient `G` and Young's
-/// modulus `E`. The weight `|W'|/r` instead of `W/r^2` (Ganzenmueller 2015) lets it ride on the sum of the stress; `k = 0.03`
-/// is as stiff on a lattice as 0.1 is with the other weight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hourglass {
-    /// Factor `k`: 0 switches it off, 0.01 to 0.1 is sensible. With `1 / (1 + nu)` the isotropic part of the shear acts between
-    /// pairs, which carries bodies through violent motion and stiffens coarse ones.
-    pub stiffness: f64,
-    /// Whether its force is the full derivative of its energy. It then conserves energy and angular momentum, for one more
-    /// loop over pairs; without, energy drifts by up to some 0.1 % a period of an undamped body.
-    pub variational: bool,
-}
-
 /// What a solid is computed with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numbers {
@@ -30,8 +15,13 @@ pub struct Numbers {
     pub damping: f64,
     /// Viscosity of the material, which adds `eta dE/dt` to its second Piola-Kirchhoff stress \[Pa s\].
     pub viscosity: f64,
-    /// Hourglass control.
-    pub hourglass: Hourglass,
+    /// Factor `k` of the hourglass control, a spring against what neighbours do beside the deformation gradient; its energy is
+    /// `1/4 sum_ab V_a V_b k E (|W'|/r) |u_ab - G_a X_ab|^2` with the displacement gradient `G` and Young's modulus `E`.
+    ///
+    /// 0 switches it off, 0.01 to 0.1 is sensible; 0.03 is as stiff on a lattice as 0.1 is with the weight `W/r^2`
+    /// (Ganzenmueller 2015). With `1 / (1 + nu)` the isotropic part of the shear acts between pairs, which carries bodies
+    /// through violent motion and stiffens coarse ones.
+    pub hourglass: f64,
     /// Step as a share of the time a P-wave takes through a smoothing length.
     pub courant: f64,
     /// Most sub-steps that a step of the fluid may take.
@@ -47,7 +37,7 @@ impl Numbers {
             density,
             damping: 0.05,
             viscosity: 0.0,
-            hourglass: Hourglass { stiffness: 0.03, variational: false },
+            hourglass: 0.02,
             courant: 0.6,
             max_substeps: 1000,
         }
@@ -76,7 +66,7 @@ impl Numbers {
         within("density", self.density, self.density > 0.0, "above 0 kg/m^3")?;
         within("damping", self.damping, (0.0..=2.0).contains(&self.damping), "0 to 2")?;
         within("viscosity", self.viscosity, self.viscosity >= 0.0, "0 Pa s or more")?;
-        let k = self.hourglass.stiffness;
+        let k = self.hourglass;
         within("hourglass", k, (0.0..=1.0).contains(&k), "0 to 1")?;
         within("courant", self.courant, 0.0 < self.courant && self.courant <= 0.8, "above 0, up to 0.8")
     }

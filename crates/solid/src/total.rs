@@ -4,11 +4,12 @@ use crate::error::SolidError;
 use crate::formulation::{Formulation, total};
 use crate::law::DISPLACEMENT_UNIT;
 use crate::law::force::Force;
-use crate::law::hourglass::{HourglassEnergy, NeighbourGradient};
+use crate::law::hourglass::HourglassEnergy;
 use crate::law::strain::{DAMPED_SUMS, DampedGradient, DisplacementGradient, SUMS};
-use crate::mat3::{from_rows, full, pack};
+use crate::mat3::pack;
 use crate::material::{Elastic, Fibres, young};
 use crate::numbers::Numbers;
+use crate::points::{Constants, Points};
 use crate::reference::Reference;
 use crate::state::SolidState;
 use glam::{DMat3, DVec3};
@@ -24,12 +25,8 @@ pub(crate) struct TotalLagrangian<R, E> {
     fibres: Vec<Fibres>,
     /// Displacement gradient G = F - I.
     gradient: Vec<DMat3>,
-    /// Its rate \[1/s\], empty without viscosity.
-    rate: Vec<DMat3>,
     /// Acceleration by damping between pairs \[m/s^2\], empty without.
     damping: Vec<DVec3>,
-    /// First Piola-Kirchhoff stress of the hourglass control \[Pa\], empty unless it is variational.
-    hourglass: Vec<DMat3>,
     /// Reference position, volume and displacement; read for the strain.
     kinematic: Records<R>,
     /// Velocity, where there is damping.
@@ -50,7 +47,6 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
     ) -> Self {
         let n = reference.correction.len();
         let all = reference.blank.len();
-        let zeros = |on: bool| vec![DMat3::ZERO; if on { n } else { 0 }];
         let sized = |on: bool| {
             let mut records = Records::default();
             records.resize(if on { all } else { 0 });
@@ -60,10 +56,8 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
         Self {
             material,
             fibres,
-            gradient: zeros(true),
-            rate: zeros(numbers.viscosity > 0.0),
+            gradient: vec![DMat3::ZERO; n],
             damping: vec![DVec3::ZERO; if damped { n } else { 0 }],
-            hourglass: zeros(numbers.hourglass.variational && numbers.hourglass.stiffness > 0.0),
             kinematic: reference.blank.clone(),
             velocity: sized(damped),
             dynamic: reference.blank.clone(),
@@ -76,19 +70,32 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
     /// Hourglass modulus `k E` \[Pa\].
     fn hourglass_modulus(&self, numbers: &Numbers) -> f64 {
         let (bulk, shear) = (self.material.bulk_modulus(), self.material.shear_modulus());
-        numbers.hourglass.stiffness * young(bulk, shear)
+        numbers.hourglass * young(bulk, shear)
     }
 
     fn fibres(&self, i: usize) -> Fibres {
         self.fibres.get(i).copied().unwrap_or_default()
     }
 
-    /// Displacement gradients, and damping of the speed `damping` \[m/s\] times that of the pairs.
-    fn strain(&mut self, dt: f64, damping: f64) {
+    /// Displacement gradients, damping of the speed `damping` \[m/s\] times that of the pairs, and what the force reads; returns
+    /// the power taken by damping and viscosity \[W\]. One pass: the stress of a particle needs no gradient but its own.
+    fn strain_and_stress(
+        &mut self,
+        state: &SolidState,
+        (dt, damping): (f64, f64),
+        (viscosity, hourglass): (f64, f64),
+    ) -> Result<f64, SolidError> {
         let (isa, reference) = (self.isa, &self.reference);
-        let gradient_scale = reference.kernel.gradient_scale() * reference.kernel.support();
-        // -beta/2 rho c h 9/r^2 (x.v) grad W (W/W_0), by the density; h is half a support.
-        let damping_scale = -2.25 * reference.kernel.gradient_scale() * damping;
+        let scale = reference.kernel.gradient_scale();
+        let constants = Constants {
+            gradient_scale: scale * reference.kernel.support(),
+            // -beta/2 rho c h 9/r^2 (x.v) grad W (W/W_0), by the density; h is half a support.
+            damping_scale: -2.25 * scale * damping,
+            rate: if dt > 0.0 { 1.0 / dt } else { 0.0 },
+            viscosity,
+            hourglass,
+        };
+        let (n, material) = (state.len(), self.material);
         let gather = Gather {
             frame: &reference.frame,
             own: &self.kinematic,
@@ -97,60 +104,55 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
             other_second: Some(&self.velocity),
         };
         let damped = !self.damping.is_empty();
-        let correction = &reference.correction;
-        let update = |i: usize, sums: &[f64], gradient: &mut DMat3, rate: Option<&mut DMat3>| {
-            let new = from_rows(sums, gradient_scale) * full(&correction[i]);
-            if let Some(rate) = rate {
-                *rate = if dt > 0.0 { (1.0 / dt) * (new - *gradient) } else { DMat3::ZERO };
-            }
-            *gradient = new;
-        };
         let rows = reference.rows.chunks();
-        self.gradient
+        let (fibres, kinematic) = (&self.fibres, self.kinematic.as_slice());
+        let chunks: Vec<Result<f64, usize>> = self
+            .gradient
             .par_chunks_mut(CHUNK)
-            .zip(chunks_or_none(&mut self.rate, rows.len()))
+            .zip(self.dynamic.as_mut_slice()[..n].par_chunks_mut(CHUNK))
+            .zip(self.matrix.as_mut_slice()[..n].par_chunks_mut(CHUNK))
             .zip(chunks_or_none(&mut self.damping, rows.len()))
             .zip(rows)
             .enumerate()
-            .for_each(|(c, (((gradient, rate), damping), row))| {
-                if damped {
+            .map(|(c, ((((gradient, dynamic), matrix), damping), row))| {
+                let range = c * CHUNK..c * CHUNK + gradient.len();
+                let points = Points {
+                    material,
+                    constants: &constants,
+                    fibres: fibres.get(range.clone()).unwrap_or_default(),
+                    correction: &reference.correction[range.clone()],
+                    kinematic: &kinematic[range.clone()],
+                    mass: &state.mass[range.clone()],
+                    volume: &state.volume[range.clone()],
+                    velocity: &state.velocity[range.clone()],
+                    gradient,
+                    dynamic,
+                    matrix,
+                    damping,
+                };
+                let power = if damped {
                     let mut sums = [[0.0; DAMPED_SUMS]; CHUNK];
-                    sweep(isa, &DampedGradient, &gather, (row, c * CHUNK), Store::None, &mut sums);
-                    for (k, (gradient, sums)) in gradient.iter_mut().zip(&sums).enumerate() {
-                        update(c * CHUNK + k, sums, gradient, rate.get_mut(k));
-                        damping[k] = damping_scale * DVec3::new(sums[9], sums[10], sums[11]);
-                    }
+                    sweep(isa, &DampedGradient, &gather, (row, range.start), Store::None, &mut sums);
+                    points.pass(&sums)
                 } else {
                     let mut sums = [[0.0; SUMS]; CHUNK];
-                    sweep(isa, &DisplacementGradient, &gather, (row, c * CHUNK), Store::None, &mut sums);
-                    for (k, (gradient, sums)) in gradient.iter_mut().zip(&sums).enumerate() {
-                        update(c * CHUNK + k, sums, gradient, rate.get_mut(k));
-                    }
-                }
-            });
-    }
-
-    /// Stress of the hourglass control by its derivative through the deformation gradients:
-    /// `-1/2 sum_b V_b c_ab d_ab (x) X_ab`, of which two of three parts are known from the sums of the strain.
-    fn hourglass(&mut self, modulus: f64) {
-        if self.hourglass.is_empty() {
-            return;
+                    sweep(isa, &DisplacementGradient, &gather, (row, range.start), Store::None, &mut sums);
+                    points.pass(&sums)
+                };
+                power.map_err(|k| range.start + k)
+            })
+            .collect();
+        self.reference.copy_to_images(&mut self.dynamic, 4);
+        self.reference.copy_to_images(&mut self.matrix, 0);
+        let mut power = 0.0;
+        for chunk in chunks {
+            power += chunk.map_err(|i| SolidError::Inverted {
+                particle: state.id[i],
+                position: state.position(i),
+                determinant: self.deformation(i).determinant(),
+            })?;
         }
-        self.pack_gradient();
-        let (isa, reference, gradient) = (self.isa, &self.reference, &self.gradient);
-        let scale = reference.kernel.gradient_scale() * reference.kernel.support();
-        let gather = matrices(reference, &self.dynamic, &self.matrix);
-        self.hourglass.par_chunks_mut(CHUNK).zip(reference.rows.chunks()).enumerate().for_each(
-            |(c, (stress, row))| {
-                let mut sums = [[0.0; 9]; CHUNK];
-                sweep(isa, &NeighbourGradient, &gather, (row, c * CHUNK), Store::None, &mut sums);
-                for (k, (stress, sums)) in stress.iter_mut().zip(&sums).enumerate() {
-                    let i = c * CHUNK + k;
-                    let own = gradient[i] * full(&reference.moment[i]);
-                    *stress = (-0.25 * modulus) * (own - from_rows(sums, scale));
-                }
-            },
-        );
+        Ok(power)
     }
 
     /// Packs the displacement gradients where the pair loops find matrices.
@@ -166,61 +168,6 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
                 (*matrix, dynamic[7]) = pack(gradient);
             });
         self.reference.copy_to_images(&mut self.dynamic, 4);
-        self.reference.copy_to_images(&mut self.matrix, 0);
-    }
-
-    /// Stress of all particles, packed with the hourglass control as `Q = P B - k G / 2`; returns the power taken by damping and
-    /// viscosity \[W\].
-    fn stress(&mut self, state: &SolidState, viscosity: f64, hourglass: f64) -> Result<f64, SolidError> {
-        let n = state.len();
-        let material = self.material;
-        let (gradient, rate, damping) = (&self.gradient, &self.rate, &self.damping);
-        let (correction, kinematic) = (&self.reference.correction, &self.kinematic);
-        let (fibres, hourglass_stress) = (&self.fibres, &self.hourglass);
-        let chunks: Vec<Result<f64, usize>> = self.dynamic.as_mut_slice()[..n]
-            .par_chunks_mut(CHUNK)
-            .zip(self.matrix.as_mut_slice()[..n].par_chunks_mut(CHUNK))
-            .enumerate()
-            .map(|(c, (dynamic, matrix))| {
-                let mut power = 0.0;
-                for (k, (dynamic, matrix)) in dynamic.iter_mut().zip(matrix).enumerate() {
-                    let i = c * CHUNK + k;
-                    let f = DMat3::IDENTITY + gradient[i];
-                    let determinant = f.determinant();
-                    if determinant <= 0.0 || determinant.is_nan() {
-                        return Err(i);
-                    }
-                    let mut first_piola = material.stress(&f, &fibres.get(i).copied().unwrap_or_default());
-                    if let Some(rate) = rate.get(i) {
-                        let product = f.transpose() * *rate;
-                        let viscous = f * ((0.5 * viscosity) * (product + product.transpose()));
-                        first_piola += viscous;
-                        power += state.volume[i] * contraction(&viscous, rate);
-                    }
-                    if let Some(acceleration) = damping.get(i) {
-                        power -= state.mass[i] * acceleration.dot(state.velocity[i]);
-                    }
-                    if let Some(stress) = hourglass_stress.get(i) {
-                        first_piola += *stress;
-                    }
-                    let q = first_piola * full(&correction[i]) - (0.5 * hourglass) * gradient[i];
-                    *dynamic = kinematic.as_slice()[i];
-                    (*matrix, dynamic[7]) = pack(&q);
-                }
-                Ok(power)
-            })
-            .collect();
-        self.reference.copy_to_images(&mut self.dynamic, 4);
-        self.reference.copy_to_images(&mut self.matrix, 0);
-        let mut power = 0.0;
-        for chunk in chunks {
-            power += chunk.map_err(|i| SolidError::Inverted {
-                particle: state.id[i],
-                position: state.position(i),
-                determinant: self.deformation(i).determinant(),
-            })?;
-        }
-        Ok(power)
     }
 
     /// Accelerations by the divergence of the stress.
@@ -245,7 +192,7 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
     fn hourglass_energy(&mut self, volume: &[f64], modulus: f64) -> f64 {
         self.pack_gradient();
         let (isa, reference) = (self.isa, &self.reference);
-        // 1/4 sum V_a V_b k E (s u^3 / H) H^2 |...|^2.
+        // 1/4 sum V_a V_b k E (s u^3 / H) H^2 |u_ab - G_a X_ab|^2.
         let scale = 0.25 * modulus * reference.kernel.gradient_scale() * reference.kernel.support();
         let gather = matrices(reference, &self.dynamic, &self.matrix);
         let chunks: Vec<f64> = reference
@@ -291,9 +238,8 @@ impl<R: Real, E: Elastic> Formulation for TotalLagrangian<R, E> {
     fn accelerate(&mut self, state: &mut SolidState, numbers: &Numbers, dt: f64) -> Result<f64, SolidError> {
         let modulus = self.material.bulk_modulus() + 4.0 / 3.0 * self.material.shear_modulus();
         let hourglass = self.hourglass_modulus(numbers);
-        self.strain(dt, numbers.damping * (modulus / numbers.density).sqrt());
-        self.hourglass(hourglass);
-        let power = self.stress(state, numbers.viscosity, hourglass)?;
+        let damping = numbers.damping * (modulus / numbers.density).sqrt();
+        let power = self.strain_and_stress(state, (dt, damping), (numbers.viscosity, hourglass))?;
         self.divergence(state, numbers.density, hourglass);
         Ok(dt * power)
     }
@@ -325,10 +271,9 @@ impl<R: Real, E: Elastic> Formulation for TotalLagrangian<R, E> {
     }
 
     fn bytes(&self) -> usize {
-        let matrices = self.gradient.capacity() + self.rate.capacity() + self.hourglass.capacity();
         self.reference.bytes()
             + size_of::<Fibres>() * self.fibres.capacity()
-            + size_of::<DMat3>() * matrices
+            + size_of::<DMat3>() * self.gradient.capacity()
             + size_of::<DVec3>() * self.damping.capacity()
             + self.kinematic.bytes()
             + self.velocity.bytes()
@@ -354,11 +299,6 @@ fn matrices<'a, R>(
         own_second: Some(matrix),
         other_second: Some(matrix),
     }
-}
-
-/// Sum of the products of all entries.
-fn contraction(a: &DMat3, b: &DMat3) -> f64 {
-    a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis) + a.z_axis.dot(b.z_axis)
 }
 
 /// Chunks of a column, empty ones where the column is not there.

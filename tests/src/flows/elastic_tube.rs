@@ -69,7 +69,7 @@ fn a_tube_under_pressure_widens_as_theory_says() {
     };
     let (mut flow, _, _) = pipe.flow::<f32>();
     // Some periods of what is left of the sloshing: 12 ms each.
-    let (from, to) = (48e-3, 96e-3);
+    let (from, to) = (36e-3, 60e-3);
     let mut sums = [0.0; 2];
     while flow.time < to {
         let before = flow.time;

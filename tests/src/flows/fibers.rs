@@ -87,6 +87,7 @@ fn middle(flow: &Flow<f32>, pipe: &Pipe) -> [f64; 2] {
 }
 
 #[test]
+#[ignore = "two minutes on two cores; `just validate-walls` runs it"]
 fn fibres_hold_a_tube_as_theory_says() {
     let wall = format!(
         "[wall]\nmodel = \"solid\"\nmaterial = \"holzapfel-gasser-ogden\"\nmatrix_modulus = \"{MATRIX} Pa\"\n\

@@ -53,6 +53,7 @@ fn carreau_yasuda_blood_has_its_profile() {
 }
 
 #[test]
+#[ignore = "a minute on two cores; `just validate-long` runs it"]
 fn casson_blood_has_its_profile() {
     assert!(error("{ model = \"casson\" }", 12.0, 0.01) < 0.02);
 }

@@ -173,6 +173,7 @@ pub const CASES: &[Case] = &[
     patients::CAROTID,
     patients::AORTA,
     elastic_patients::CAROTID,
+    elastic_patients::CAROTID_SOLID,
     elastic_patients::AORTA,
 ];
 

@@ -91,7 +91,7 @@ impl Run {
             dt = next;
         }
         *time += duration;
-        fluid.transport(openings.zones(), 1.0);
+        fluid.transport(openings.zones());
         assert!(fluid.guard().lost.is_empty(), "a particle left through the wall at {time} s");
     }
 }

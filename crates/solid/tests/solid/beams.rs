@@ -4,7 +4,7 @@ use crate::support;
 
 use glam::DVec3;
 use support::{at_time, data, lattice, table};
-use vaso_solid::{Hourglass, Isa, Material, NeoHookean, Numbers, Particles, SaintVenantKirchhoff, Solid};
+use vaso_solid::{Isa, Material, NeoHookean, Numbers, Particles, SaintVenantKirchhoff, Solid};
 
 /// Shape of the first mode of a cantilever (Landau and Lifshitz), `k L = 1.875`.
 fn first_mode(x: f64) -> f64 {
@@ -22,12 +22,8 @@ fn plate(layers: usize, smoothing: f64, speed: f64) -> (f64, f64, f64) {
     let along = (LENGTH / spacing).round() as usize;
     let low = DVec3::new(-4.0 * spacing, -0.5 * HEIGHT, 0.0);
     let body = lattice(low, [along + 4, layers, 1], spacing);
-    let numbers = Numbers {
-        smoothing_length: smoothing * spacing,
-        damping: 0.0,
-        hourglass: Hourglass { variational: true, ..Numbers::new(1000.0, spacing).hourglass },
-        ..Numbers::new(1000.0, spacing)
-    };
+    let numbers =
+        Numbers { smoothing_length: smoothing * spacing, damping: 0.0, ..Numbers::new(1000.0, spacing) };
     let particles = Particles { period: Some(DVec3::new(0.0, 0.0, spacing)), ..body.particles() };
     let neo_hookean = NeoHookean::new(2e6, 0.3975).expect("in range");
     let sound = (neo_hookean_bulk(2e6, 0.3975) / 1000.0_f64).sqrt();
@@ -112,12 +108,8 @@ fn csm3(layers: usize, smoothing: f64) -> Vec<(f64, f64, f64)> {
     let along = ((0.6 - start) / spacing).round() as usize;
     let low = DVec3::new(0.6 - along as f64 * spacing, 0.19, 0.0);
     let body = lattice(low, [along, layers, 1], spacing);
-    let numbers = Numbers {
-        smoothing_length: smoothing * spacing,
-        damping: 0.0,
-        hourglass: Hourglass { variational: true, ..Numbers::new(1000.0, spacing).hourglass },
-        ..Numbers::new(1000.0, spacing)
-    };
+    let numbers =
+        Numbers { smoothing_length: smoothing * spacing, damping: 0.0, ..Numbers::new(1000.0, spacing) };
     let particles = Particles { period: Some(DVec3::new(0.0, 0.0, spacing)), ..body.particles() };
     let young = 2.0 * 0.5e6 * 1.4;
     let material = Material::SaintVenantKirchhoff(SaintVenantKirchhoff::new(young, 0.4).expect("in range"));
