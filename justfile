@@ -86,9 +86,10 @@ docs:
     cargo run -- schema > docs/case.schema.json
     cargo doc --workspace --no-deps
 
-# The messages of the wrong cases in tests/bad, written anew: read the difference before it is committed.
+# The messages of the wrong cases in tests/bad and the plans of the shipped ones in tests/plans, written anew: read the difference
+# before it is committed.
 bless:
-    VASO_BLESS=1 cargo test --release -p vaso-driver --test bad
+    VASO_BLESS=1 cargo test --release -p vaso-driver --test bad --test cases
 
 # A target of the fuzzer (stl, vtp, case, prepare) for some seconds; needs cargo-fuzz and a C++ compiler.
 fuzz target="vtp" seconds="60":

@@ -35,6 +35,45 @@ fn shipped_cases_can_be_planned() {
     }
 }
 
+/// What a plan says, without what differs between machines.
+fn plan(case: &Path) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_vaso"))
+        .arg("check")
+        .arg(case)
+        .output()
+        .expect("the program can be started");
+    assert!(output.status.success(), "{}: {}", case.display(), String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("plans are UTF-8");
+    let of_machine = |line: &&str| ["surface ", "plan ", "cost "].iter().any(|head| line.starts_with(head));
+    text.lines().filter(|line| !of_machine(line)).map(|line| format!("{line}\n")).collect()
+}
+
+/// Which effects a scene gets, why, and with which numbers: each plan is kept in `tests/plans`, and a change of it is there to be read.
+/// With `VASO_BLESS` set they are written anew.
+#[test]
+fn the_plans_of_the_shipped_cases_are_those_that_are_kept() {
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/plans");
+    let mut faults = Vec::new();
+    for case in cases() {
+        let name = case.file_name().expect("a folder has a name").to_string_lossy().into_owned();
+        let (file, now) = (kept.join(format!("{name}.txt")), plan(&case));
+        if std::env::var_os("VASO_BLESS").is_some() {
+            std::fs::write(&file, &now).expect("written");
+        }
+        let before = std::fs::read_to_string(&file).unwrap_or_default();
+        let new = now.lines().filter(|line| !before.lines().any(|old| old == *line));
+        let new: Vec<&str> = new.collect();
+        if before != now {
+            faults.push(format!(
+                "{name} has another plan than in {}, new are:\n{}",
+                file.display(),
+                new.join("\n")
+            ));
+        }
+    }
+    assert!(faults.is_empty(), "{}\n`just bless` writes them anew", faults.join("\n"));
+}
+
 /// A README with the question, the source and the result, and surfaces small enough for a repository.
 #[test]
 fn shipped_cases_say_what_they_are_for() {

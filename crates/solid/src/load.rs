@@ -82,7 +82,7 @@ impl Loads {
                 self.acceleration[i] -= (pressure.value / mass[i]) * present;
             }
         }
-        if let Some(lumen) = &self.lumen {
+        if let Some(lumen) = &mut self.lumen {
             lumen.push(body, mass, &mut self.acceleration);
         }
         for tissue in &self.tissue {

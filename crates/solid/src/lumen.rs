@@ -17,6 +17,8 @@ pub(crate) struct Lumen {
     area: Vec<DVec3>,
     /// Pressure on each \[Pa\].
     pressure: Vec<f64>,
+    /// What it accelerates each particle of the face by \[m/s^2\].
+    push: Vec<DVec3>,
     /// Number in the face of the particle nearest to each one in the state.
     nearest: Vec<u32>,
 }
@@ -43,15 +45,21 @@ impl Lumen {
     }
 
     /// Adds what the pressure accelerates particles of these masses \[kg\] by.
-    pub(crate) fn push(&self, body: &dyn Formulation, mass: &[f64], acceleration: &mut [DVec3]) {
-        for (k, (&i, pressure)) in self.at.iter().zip(&self.pressure).enumerate() {
-            acceleration[i as usize] -= (pressure / mass[i as usize]) * self.present(body, k);
+    pub(crate) fn push(&mut self, body: &dyn Formulation, mass: &[f64], acceleration: &mut [DVec3]) {
+        let mut push = std::mem::take(&mut self.push);
+        let by = |k: usize| (-self.pressure[k] / mass[self.at[k] as usize]) * self.present(body, k);
+        (0..self.at.len()).into_par_iter().with_min_len(256).map(by).collect_into_vec(&mut push);
+        // One after the other: a particle may stand for several parts of the face.
+        for (&i, push) in self.at.iter().zip(&push) {
+            acceleration[i as usize] += *push;
         }
+        self.push = push;
     }
 
     /// Bytes held.
     pub(crate) fn bytes(&self) -> usize {
-        let vectors = size_of::<DVec3>() * self.area.capacity() + 8 * self.pressure.capacity();
+        let vectors =
+            size_of::<DVec3>() * (self.area.capacity() + self.push.capacity()) + 8 * self.pressure.capacity();
         vectors + 4 * (self.at.capacity() + self.nearest.capacity())
     }
 }
@@ -79,8 +87,13 @@ impl<R: Real> Solid<R> {
             nearest.filter(|&k| distance(k) <= reach * reach).unwrap_or(u32::MAX)
         });
         let nearest = nearest.collect();
-        self.loads.lumen =
-            Some(Lumen { pressure: vec![0.0; at.len()], area: face.area.clone(), nearest, at });
+        self.loads.lumen = Some(Lumen {
+            pressure: vec![0.0; at.len()],
+            push: Vec::new(),
+            area: face.area.clone(),
+            nearest,
+            at,
+        });
         self.ready = false;
         Ok(())
     }
