@@ -2,8 +2,8 @@
 //!
 //! `cargo bench -p vaso-benches --bench effects -- --write` writes `docs/effects.md`; `--test` takes one turn and writes nothing.
 
-use rustix::time::{ClockId, clock_gettime};
 use std::fmt::Write;
+use vaso_benches::processor;
 use vaso_benches::speed::root;
 use vaso_coupling::ShellWall;
 use vaso_driver::deforming::Deforming;
@@ -75,12 +75,6 @@ const SCENES: &[Scene] = &[
         set: &[("numerics.precision", "double")],
     },
 ];
-
-/// Processor time of the program so far \[s\].
-fn processor() -> f64 {
-    let t = clock_gettime(ClockId::ProcessCPUTime);
-    t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64
-}
 
 /// A flow that can be taken on.
 trait Goes {

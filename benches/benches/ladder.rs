@@ -4,11 +4,10 @@
 //! the page; `--test` runs the first rung, and fails where it is slower than what is kept by more than noise.
 
 use glam::DVec3;
-use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
 use std::time::Instant;
-use vaso_benches::Cube;
 use vaso_benches::speed::{Ladder, Loop, Machine, Rung, root};
+use vaso_benches::{Cube, processor};
 use vaso_coupling::ShellWall;
 use vaso_driver::deforming::Deforming;
 use vaso_driver::{Case, Flow, Plan, Stage, world};
@@ -23,12 +22,6 @@ const SLOWER: f64 = 1.3;
 /// Advective steps of a rung: before the clock runs, and while it does.
 const WARM: usize = 3;
 const STEPS: usize = 12;
-
-/// Processor time of the program so far \[s\].
-fn processor() -> f64 {
-    let t = clock_gettime(ClockId::ProcessCPUTime);
-    t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64
-}
 
 /// Least processor time of `work` in `times` goes \[s\]: what others take away only adds.
 fn least(times: usize, mut work: impl FnMut()) -> f64 {

@@ -3,10 +3,17 @@
 pub mod speed;
 
 use glam::DVec3;
+use rustix::time::{ClockId, clock_gettime};
 use vaso_kernels::{CellGrid, Frame, Isa, Real, Records, Rows, SearchSet, Wendland};
 
 /// Spacing of the lattice \[m\].
 pub const SPACING: f64 = 1e-3;
+
+/// Processor time of the program so far \[s\].
+pub fn processor() -> f64 {
+    let t = clock_gettime(ClockId::ProcessCPUTime);
+    t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64
+}
 
 /// A cube of particles, sorted by cell.
 pub struct Cube {

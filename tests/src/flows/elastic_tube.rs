@@ -68,7 +68,7 @@ fn a_tube_under_pressure_widens_as_theory_says() {
         ..tube(10.0, LENGTH, &wall, "[numerics]\nsound_speed = \"20 m/s\"")
     };
     let (mut flow, _, _) = pipe.flow::<f32>();
-    // Some periods of what is left of the sloshing: 12 ms each.
+    // Two periods of what is left of the sloshing: 12 ms each.
     let (from, to) = (36e-3, 60e-3);
     let mut sums = [0.0; 2];
     while flow.time < to {

@@ -32,7 +32,7 @@ pub const CAROTID_SOLID: Case = Case {
     title: "Carotid of a person with a solid wall",
     setup: "As the carotid with a shell, but for its wall, a neo-Hookean solid of two layers 0.3 mm apart, Poisson ratio 0.45: one beat at 0.4 mm.",
     reference: "As for the carotid with a shell.",
-    remark: "Two layers are too few to bend (`check` says so); the time is that of an explicit solid, 3.4 us a step.",
+    remark: "Two layers are too few to bend (`check` says so).",
     quick: None,
     full: || run::<Solid<f32>>(&CAROTID_SPEC, &CAROTID_SOLID_WALL),
 };
