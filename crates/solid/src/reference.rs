@@ -100,8 +100,6 @@ pub(crate) struct Reference<R> {
     pub(crate) rows: Rows,
     /// Inverse moment matrices: gradients of linear fields are exact (Bonet and Lok 1999).
     pub(crate) correction: Vec<Sym3>,
-    /// Moment matrices.
-    pub(crate) moment: Vec<Sym3>,
     /// Particle behind each image.
     pub(crate) images: Vec<u32>,
     /// Records with position and volume, images behind the particles; the rest is zero.
@@ -161,7 +159,7 @@ impl<R: Real> Reference<R> {
             })
             .collect::<Result<_, _>>()?;
         let images = images.into_iter().map(|(i, _)| i).collect();
-        Ok(Self { kernel, frame, rows, correction, moment, images, blank })
+        Ok(Self { kernel, frame, rows, correction, images, blank })
     }
 
     /// Gives images the fields from `from` on of the particles behind them.
@@ -177,7 +175,7 @@ impl<R: Real> Reference<R> {
     pub(crate) fn bytes(&self) -> usize {
         self.rows.bytes()
             + self.blank.bytes()
-            + size_of::<Sym3>() * (self.correction.capacity() + self.moment.capacity())
+            + size_of::<Sym3>() * self.correction.capacity()
             + 4 * self.images.capacity()
     }
 }
