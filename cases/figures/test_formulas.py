@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import dean, pulsatile, readme, stenosis
+from . import dean, elastic_tube, pulsatile, readme, stenosis
 from .__main__ import CASES
 from .case import harmonic, quantity, smooth, within
 
@@ -47,6 +47,24 @@ class Formulas(unittest.TestCase):
         self.assertAlmostEqual(flow / quantity(expected[0]["value"]), 1.0, places=5)
         for r, row in zip([0.0, 0.5, 0.75], expected[1:]):
             self.assertAlmostEqual(scale * abs(pulsatile.velocity(alpha, r)) / quantity(row["value"]), 1.0, places=5)
+
+    def test_an_elastic_tube_is_that_of_the_expected_values(self) -> None:
+        case, expected = (tomllib.loads((ROOT / f"elastic-tube/{name}.toml").read_text(encoding="utf-8")) for name in ("case", "expect"))
+        exact = elastic_tube.tube(case)
+        for row in expected["expect"]:
+            value = exact.velocity(elastic_tube.PROBES[row["probe"]])
+            self.assertAlmostEqual(float(value) / quantity(row["value"]), 1.0, places=5)
+
+    def test_a_stiff_elastic_tube_is_that_of_lame_and_fung(self) -> None:
+        stiff = elastic_tube.Tube(young=60e6, thickness=0.3e-3, viscosity=0.15, flow=1.5e-6, outlet=900.0)
+        a, b = elastic_tube.RADIUS, elastic_tube.RADIUS + 0.3e-3
+        # Lame, plane strain, a wall that keeps its volume: u = 3 p a b^2 / (2 E (b^2 - a^2)); 1 % more for the ends.
+        widening = 1.5 * 900.0 / 60e6 * a * b**2 / (b**2 - a**2)
+        self.assertAlmostEqual((stiff.lumen(900.0) - a) / widening, 1.011, places=2)
+        # Fung (1997), where the radius is a line in the pressure: a(0)^5 - a(L)^5 = 40 mu k Q L / pi, k = da/dp.
+        ends = [stiff.lumen(p) for p in stiff.pressure(np.array([0.0, elastic_tube.LENGTH]))]
+        expected = 40.0 * 0.15 * 1.011 * widening / 900.0 * 1.5e-6 * elastic_tube.LENGTH / np.pi
+        self.assertAlmostEqual((ends[0] ** 5 - ends[1] ** 5) / expected, 1.0, places=2)
 
     def test_slow_pulses_shear_the_wall_as_poiseuille_says(self) -> None:
         t = np.linspace(0.0, 1e4, 50)

@@ -25,6 +25,7 @@ pub fn surfaces() -> Vec<CaseSurface> {
         mm("carotid/carotid.stl", bifurcation(&BifurcationSpec::default())),
         mm("common-carotid/common-carotid.stl", pipe(3e-3, 126e-3, DVec3::Z, 40)),
         mm("curved-tube/curved-tube.stl", bent_pipe(2e-3, 16e-3, PI, 48)),
+        mm("elastic-tube/tube.stl", pipe(3e-3, 36e-3, DVec3::Z, 64)),
         mm("fda-nozzle/nozzle.stl", nozzle()),
         mm("pipe/pipe.stl", pipe(3.175e-3, 31.75e-3, DVec3::Z, 96)),
         mm("stenosis/stenosis.stl", stenosis()),

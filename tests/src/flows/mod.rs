@@ -16,4 +16,5 @@ mod shell_walls;
 mod shells;
 mod stability;
 mod steps;
+mod tube;
 mod validation;

@@ -1,5 +1,6 @@
 //! Walls of one layer next to blood: at rest as layers are, and inflated to rest.
 
+use super::tube::{is_middle, means, pressure};
 use crate::pipe::Pipe;
 use vaso_coupling::ShellWall;
 use vaso_driver::Flow;
@@ -100,19 +101,10 @@ impl Inflated {
         let pipe = self.pipe();
         let (mut flow, _, _) = pipe.flow_in::<f32, ShellWall<f32>>();
         // Some periods of what is left of the sloshing: 12 ms each.
-        let (from, to) = (48e-3, 96e-3);
-        let mut sums = [0.0; 3];
-        while flow.time < to {
-            let before = flow.time;
-            flow.step(to).unwrap_or_else(|e| panic!("{e}"));
-            if before >= from {
-                let [mean, scatter] = self.middle(&flow, &pipe);
-                let now = [mean, scatter, pressure(&flow, &pipe) / self.pressure()];
-                sums.iter_mut().zip(now).for_each(|(sum, v)| *sum += (flow.time - before) / (to - from) * v);
-            }
-        }
-        assert_eq!(flow.watch.escaped, 0);
-        let [mean, scatter, pressure] = sums;
+        let [mean, scatter, pressure] = means(&mut flow, [48e-3, 96e-3], |flow| {
+            let [mean, scatter] = self.middle(flow, &pipe);
+            [mean, scatter, pressure(flow, &pipe) / self.pressure()]
+        });
         [mean / pressure, scatter / mean, pressure]
     }
 
@@ -143,18 +135,6 @@ impl Inflated {
         let mean = sum / n;
         [mean, (squares / n - mean * mean).max(0.0).sqrt()]
     }
-}
-
-fn is_middle(z: f64, pipe: &Pipe) -> bool {
-    (z - 0.5 * pipe.length).abs() < 0.1 * pipe.length
-}
-
-/// Mean pressure of the blood in the middle fifth \[Pa\].
-fn pressure(flow: &ShellFlow, pipe: &Pipe) -> f64 {
-    let state = &flow.fluid.state;
-    let within = (0..state.len()).filter(|&i| is_middle(state.position[i].z, pipe));
-    let (sum, n) = within.fold((0.0, 0.0), |(sum, n), i| (sum + state.pressure[i], n + 1.0));
-    sum / n
 }
 
 const BOUND: f64 = 0.02;

@@ -5,6 +5,7 @@
 mod flows;
 pub mod page;
 pub mod ride;
+mod shapes;
 pub mod vessels;
 
 use crate::validation::Outcome;
@@ -57,7 +58,7 @@ pub const CASES: &[Hard] = &[
         held: Held::Here(
             "Hairpin of 4 mm whose legs are 0.8 mm apart at a spacing of 0.5 mm (support 1.3 mm), against the same with legs 4 mm \
              apart: the pressure that drives the flow through one leg.",
-            flows::hairpin,
+            shapes::hairpin,
         ),
     },
     Hard {
@@ -85,7 +86,7 @@ pub const CASES: &[Hard] = &[
         breaks: "The Mach number rises fourfold in the throat; the jet leaves a void behind it.",
         held: Held::Here(
             "Pipe of 6 mm narrowed to a quarter of its area over 12 mm, eight spacings across the throat, Reynolds number 500 in it.",
-            flows::stenosis,
+            shapes::stenosis,
         ),
     },
     Hard {
@@ -94,7 +95,7 @@ pub const CASES: &[Hard] = &[
         breaks: "Particles enter the wedge of wall particles one layer deep.",
         held: Held::Here(
             "The carotid of the demo at 0.7 mm, 50 ms from rest without a ramp.",
-            flows::divider,
+            shapes::divider,
         ),
     },
     Hard {
@@ -118,7 +119,7 @@ pub const CASES: &[Hard] = &[
         held: Held::Here(
             "The carotid of the demo with so coarse a spacing that the smaller outlet is three spacings wide: a warning by name; coarser: \
              a refusal.",
-            flows::tiny_outlet,
+            shapes::tiny_outlet,
         ),
     },
     Hard {
