@@ -60,10 +60,6 @@ ladder:
 effects:
     cargo bench -p vaso-benches --bench effects -- --write
 
-# The figures of accuracy and speed, measured anew; a quarter of an hour on two cores.
-figures:
-    cargo run --release -p vaso-tests --example figures -- 10 16 20 > docs/figures.md
-
 # The page of the validation with the cases named run anew (`all` for all, about an hour on two cores); wants VASO_DATA.
 validation *cases:
     cargo run --release -p vaso-tests --example validation -- {{cases}}

@@ -1,7 +1,6 @@
 //! Tools of the tests that span crates: cases run through the library, and flows compared with formulas.
 
 pub mod accuracy;
-pub mod figures;
 #[cfg(test)]
 mod flows;
 pub mod generators;

@@ -93,7 +93,7 @@ The bifurcation at 0.5 mm: a wall of 1.5 mm by each end, and a shell on the lume
 
 ## What a flow makes of it
 
-The pipe of `cases/pipe` at Reynolds number 100, as in [figures.md](figures.md): 1.2 s from rest, mean of the last
+The pipe of `cases/pipe` at Reynolds number 100, as in [validation.md](validation.md#poiseuille): 1.2 s from rest, mean of the last
 quarter, mixed precision. The velocity error is the root mean square over the middle fifth, of the peak velocity. The time is
 that of the flow alone.
 
