@@ -11,12 +11,12 @@ pub const CASE: Case = Case {
     title: "Backflow through both ends",
     setup: "Pipe of 17.2 mm, two diameters long: the flow above the aortic bifurcation (-24 to 87 ml/s, 1.1 s) as a parabola \
             into a Windkessel of R_p 3.4e7, C 7.3e-10, R_d 1.55e9 (both iliac arteries in parallel) from its periodic start, \
-            D/10, two cycles (D/8 and one in the quick run).",
+            D/10, three cycles (D/8 and one in the quick run).",
     reference: "The inflow; waveform and outlets of Boileau et al. 2015, iliac bifurcation.",
     remark: "The peak Reynolds number is 1900. Over the first beat the number of particles settles, by 4 % in so short a pipe \
-             at D/8; the quick run holds that.",
+             at D/8; the quick run holds that. From moment to moment it swings by 1 %.",
     quick: Some(|| run(8.0, 1.0)),
-    full: || run(10.0, 2.0),
+    full: || run(10.0, 3.0),
 };
 
 const PERIOD: f64 = 1.1;
@@ -49,14 +49,14 @@ fn run(across: f64, cycles: f64) -> Option<Outcome> {
     pipe.more = format!("period = \"{PERIOD} s\"");
     let mut difference = Series::default();
     let (mut first, mut last) = (None, Vec::new());
-    let (mut at_start, mut at_end) = (0, 0);
+    let mut particles = Series::default();
     let mut peak: f64 = 0.0;
     let flown = fly(&pipe, |flow, plan| {
         let ports = flow.openings.ports();
         last = ports.iter().map(|p| p.counters.outflow_volume).collect::<Vec<_>>();
-        at_end = flow.fluid.state.len();
+        particles.add(flow.time, flow.fluid.state.len() as f64);
         if flow.time >= (cycles - 1.0) * PERIOD && first.is_none() {
-            (first, at_start) = (Some(last.clone()), at_end);
+            first = Some(last.clone());
         }
         let inlet = plan.openings.iter().position(|o| o.name == "inlet").expect("there is an inlet");
         let [inflow, outflow] = [flow.readings[inlet].flow, flow.readings[1 - inlet].flow];
@@ -73,13 +73,17 @@ fn run(across: f64, cycles: f64) -> Option<Outcome> {
     let held = |asked, coarse| if full { Tolerance::Asked(asked) } else { Tolerance::Held(coarse) };
     outcome.figure(
         "volume in less volume out over the last cycle, of what goes through",
-        change.iter().sum::<f64>() / through,
+        -change.iter().sum::<f64>() / through,
         Unit::Part,
         held(0.01, 0.06),
     );
+    // Without the cycle in which it settles, where there is more than that.
+    let settled = if full { PERIOD } else { 0.0 };
+    let whole = particles.from(settled).mean();
+    let later = particles.from(0.5 * (settled + pipe.end_time)).mean();
     outcome.figure(
-        "particles at the end of the last cycle against its start",
-        at_end as f64 / at_start as f64 - 1.0,
+        "particles, mean of the second half of what follows the first cycle against the whole",
+        later / whole - 1.0,
         Unit::Part,
         held(0.01, 0.06),
     );
