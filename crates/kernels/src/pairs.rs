@@ -8,7 +8,7 @@ use crate::frame::Frame;
 use crate::isa::{Isa, LaneWork, dispatch};
 use crate::lanes::{FIELDS, Lanes, Real, SearchLanes};
 use crate::records::Records;
-use crate::rows::RowChunk;
+use crate::rows::{RowChunk, make_room};
 
 /// Particle whose row is summed, the same value in all lanes.
 #[derive(Clone, Copy)]
@@ -91,6 +91,7 @@ impl<R: Real> PairStore<R> {
     pub fn resize_for(&mut self, rows: &[RowChunk]) {
         self.chunks.resize(rows.len(), Vec::new());
         for (store, row) in self.chunks.iter_mut().zip(rows) {
+            make_room(store, row.n_entries().saturating_sub(store.len()));
             store.resize(row.n_entries(), R::default());
         }
     }

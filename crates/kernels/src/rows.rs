@@ -185,6 +185,14 @@ impl Rows {
     }
 }
 
+/// Room for `more` entries. Lists that double when they are full would hold a third of nothing, and lists of neighbours are most of all memory;
+/// an eighth more is room for what a flow changes.
+pub(crate) fn make_room<T>(list: &mut Vec<T>, more: usize) {
+    if list.capacity() - list.len() < more {
+        list.reserve_exact(more.max(list.len() / 8));
+    }
+}
+
 struct Search<'a> {
     chunk: &'a mut RowChunk,
     first: usize,
@@ -221,7 +229,7 @@ impl<R: Real> LaneWork<R> for Search<'_> {
                 candidates = runs.as_slice().iter().map(|&(begin, end)| end - begin).sum();
             }
             // Room for all candidates, and for one store of a full vector behind them.
-            at.reserve(candidates + 2 * PAD);
+            make_room(at, candidates + 2 * PAD);
             let (out, mut len) = (at.as_mut_ptr(), at.len());
             for &(begin, end) in runs.as_slice() {
                 debug_assert!(end <= self.other.n);

@@ -205,3 +205,27 @@ fn redirected_rows_point_where_they_are_told() {
         assert!(redirected.row(i).eq(rows.row(i).map(|j| n + 2 - j)), "row {i}");
     }
 }
+
+/// Rows and what is stored beside them are most of the memory of a flow; when a flow changes how many neighbours there are, they grow by what it takes.
+#[test]
+fn lists_that_grow_have_little_to_spare() {
+    let mut cloud = cloud();
+    let mut rows = rows(&cloud, Isa::detect());
+    let mut store = PairStore::<f32>::default();
+    store.resize_for(rows.chunks());
+    let before = rows.n_pairs();
+    let middle = cloud.position.iter().sum::<DVec3>() / cloud.position.len() as f64;
+    cloud.position.iter_mut().for_each(|x| *x = middle + 0.97 * (*x - middle));
+    let mut order = Vec::new();
+    cloud.grid.sort(&cloud.position, &mut order);
+    cloud.position = order.iter().map(|&o| cloud.position[o as usize]).collect();
+    cloud.set.fill(&cloud.frame, &cloud.position);
+    let (own, other) = ((&cloud.set, &cloud.position[..]), &cloud.set);
+    rows.build(Isa::detect(), &cloud.frame, own, other, &cloud.grid, true);
+    store.resize_for(rows.chunks());
+    assert!(rows.n_pairs() > before);
+    let needed = 4 * rows.chunks().iter().map(|c| c.n_entries()).sum::<usize>();
+    for (what, bytes) in [("rows", rows.bytes()), ("store", store.bytes())] {
+        assert!(bytes < needed + needed / 4, "{what}: {bytes} for {needed}");
+    }
+}
