@@ -126,22 +126,21 @@ fn match_openings(scene: &Scene, vessel: &Vessel) -> Result<Vec<Option<usize>>, 
         }
     }
     if vessel.openings.len() < 2 && scene.blood.is_some() {
-        problems.push(too_few_openings(vessel, &scene.geometry.surface));
+        problems.push(format!("{}: {}", scene.geometry.surface.display(), too_few_openings(vessel)));
     }
     if problems.is_empty() { Ok(found) } else { Err(DriverError::Input { problems }) }
 }
 
 /// What to say of a vessel that blood cannot go through.
-pub(crate) fn too_few_openings(vessel: &Vessel, surface: &Path) -> String {
+pub(crate) fn too_few_openings(vessel: &Vessel) -> String {
     let candidates = vessel.audit.flat_regions.iter().filter_map(|region| {
         let (c, rejected) = (region.center / vessel.unit.metres(), region.rejected?);
         Some(format!("\n    flat region at [{:.3}, {:.3}, {:.3}]: {rejected}", c.x, c.y, c.z))
     });
     let candidates: String = candidates.collect();
     format!(
-        "{}: {} openings found, blood needs at least 2; cut the surface open where blood goes in and out, or close it there by \
+        "{} openings found, blood needs at least 2; cut the surface open where blood goes in and out, or close it there by \
          flat caps across the vessel{}{candidates}",
-        surface.display(),
         vessel.openings.len(),
         if candidates.is_empty() { "" } else { "; these flat parts are none:" },
     )

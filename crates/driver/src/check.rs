@@ -1,7 +1,7 @@
 //! `vaso check`: what would run, without running it.
 
 use crate::bodies::remembered_warnings;
-use crate::case::{Case, load_vessel, rank_name};
+use crate::case::{Case, load_vessel, rank_name, too_few_openings};
 use crate::error::DriverError;
 use crate::plan::Plan;
 use crate::print;
@@ -75,13 +75,17 @@ fn vessel(vessel: &Vessel, file: &Path) -> Checked {
             o.radius * 1e3
         );
     }
-    for notice in &vessel.audit.notices {
-        let _ = writeln!(text, "warning  {notice}");
+    let mut warnings = vessel.audit.notices.clone();
+    if vessel.openings.len() < 2 {
+        warnings.push(too_few_openings(vessel));
+    }
+    for warning in &warnings {
+        let _ = writeln!(text, "warning  {warning}");
     }
     let report = CheckReport {
         surface: surface_report(vessel),
         openings: vessel.openings.iter().enumerate().map(|(k, o)| opening_entry(&rank_name(k), o)).collect(),
-        warnings: vessel.audit.notices.clone(),
+        warnings,
         ..CheckReport::default()
     };
     Checked { text, report }

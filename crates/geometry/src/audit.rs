@@ -25,6 +25,8 @@ pub struct Audit {
     pub holes_filled: usize,
     /// Edges of the prepared surface at which more than two triangles meet.
     pub non_manifold_edges: usize,
+    /// Connected places at which the prepared surface cuts itself.
+    pub self_intersections: usize,
     /// Lengths of the edges of the prepared surface.
     pub edge_length: EdgeLengths,
     /// Whether the unit was guessed.

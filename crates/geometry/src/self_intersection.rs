@@ -12,12 +12,15 @@ use crate::{sets::Sets, surface::Surface};
 /// Height over a plane, as part of the diagonal of the surface, that is rounding error.
 const ON_PLANE: f64 = 1e-12;
 
+/// Most other triangles that [`cut_triangles`] looks at for one.
+const MAX_LOOKS: usize = 1000;
+
 /// A connected part of the lines along which a surface cuts itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntersectionPlace {
-    /// Mean of the centres of the triangles.
+    /// Mean of the points at which a side of one triangle pierces another.
     pub center: DVec3,
-    /// Largest distance of such a centre from the mean.
+    /// Largest distance of such a point from the mean.
     pub radius: f64,
     /// Pairs of triangles that cut each other here.
     pub pairs: usize,
@@ -28,25 +31,47 @@ pub struct IntersectionPlace {
 /// Neighbours across an edge cannot cut each other but fold onto each other; that, and triangles that overlap
 /// in one plane, is not reported.
 pub fn self_intersections(surface: &Surface) -> Vec<[u32; 2]> {
-    let n = surface.triangles.len();
-    let boxes: Vec<Aabb> = (0..n)
+    let (boxes, tree) = boxes(surface);
+    let on_plane = ON_PLANE * surface.diagonal();
+    let cuts = |t: u32| -> Vec<[u32; 2]> {
+        let mut found: Vec<[u32; 2]> = tree
+            .intersect_aabb(&boxes[t as usize])
+            .filter(|&other| other > t && cut(surface, t, other, on_plane).is_some())
+            .map(|other| [t, other])
+            .collect();
+        found.sort_unstable();
+        found
+    };
+    (0..boxes.len() as u32).into_par_iter().flat_map_iter(cuts).collect()
+}
+
+/// For each triangle that cuts another the pair with the first such other, as [`self_intersections`] has pairs. Where that would find every pair of a heap of
+/// triangles, this looks at [`MAX_LOOKS`] others a triangle; a cut is missed where both are surrounded by more.
+pub(crate) fn cut_triangles(surface: &Surface) -> Vec<[u32; 2]> {
+    let (boxes, tree) = boxes(surface);
+    let on_plane = ON_PLANE * surface.diagonal();
+    let first = |t: u32| {
+        tree.intersect_aabb(&boxes[t as usize])
+            .take(MAX_LOOKS)
+            .find(|&other| other != t && cut(surface, t, other, on_plane).is_some())
+            .map(|other| [t.min(other), t.max(other)])
+    };
+    let mut found: Vec<[u32; 2]> = (0..boxes.len() as u32).into_par_iter().filter_map(first).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Boxes of the triangles and a tree over them.
+fn boxes(surface: &Surface) -> (Vec<Aabb>, Bvh) {
+    let boxes: Vec<Aabb> = (0..surface.triangles.len())
         .map(|t| {
             let [a, b, c] = surface.triangle(t);
             Aabb::new(a.min(b).min(c), a.max(b).max(c))
         })
         .collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-    let on_plane = ON_PLANE * surface.diagonal();
-    let cuts = |t: u32| -> Vec<[u32; 2]> {
-        let mut found: Vec<[u32; 2]> = tree
-            .intersect_aabb(&boxes[t as usize])
-            .filter(|&other| other > t && cut(surface, t as usize, other as usize, on_plane))
-            .map(|other| [t, other])
-            .collect();
-        found.sort_unstable();
-        found
-    };
-    (0..n as u32).into_par_iter().flat_map_iter(cuts).collect()
+    (boxes, tree)
 }
 
 /// The connected places at which the given pairs of triangles lie, those with most pairs first.
@@ -62,11 +87,10 @@ pub(crate) fn places(surface: &Surface, pairs: &[[u32; 2]]) -> Vec<IntersectionP
             }
         }
     }
-    let center = |pair: &[u32; 2]| {
-        pair.iter().map(|&t| surface.triangle(t as usize).into_iter().sum::<DVec3>()).sum::<DVec3>() / 6.0
-    };
+    let on_plane = ON_PLANE * surface.diagonal();
+    let point = |[s, t]: &[u32; 2]| cut(surface, *s, *t, on_plane).expect("pairs cut each other");
     let mut by_root: Vec<(usize, DVec3)> =
-        (0..pairs.len()).map(|k| (sets.lowest(k), center(&pairs[k]))).collect();
+        (0..pairs.len()).map(|k| (sets.lowest(k), point(&pairs[k]))).collect();
     by_root.sort_by_key(|(root, _)| *root);
     let mut places: Vec<IntersectionPlace> = by_root
         .chunk_by(|a, b| a.0 == b.0)
@@ -80,37 +104,40 @@ pub(crate) fn places(surface: &Surface, pairs: &[[u32; 2]]) -> Vec<IntersectionP
     places
 }
 
-/// Whether two triangles cut each other.
-fn cut(surface: &Surface, s: usize, t: usize, on_plane: f64) -> bool {
-    let [first, second] = [s, t].map(|k| surface.triangles[k]);
+/// Where two triangles cut each other: the first point found at which a side of one pierces the other.
+fn cut(surface: &Surface, s: u32, t: u32, on_plane: f64) -> Option<DVec3> {
+    let [first, second] = [s, t].map(|k| surface.triangles[k as usize]);
     let common: Vec<u32> = first.into_iter().filter(|v| second.contains(v)).collect();
+    if common.len() >= 2 {
+        return None;
+    }
     let place = |v: u32| surface.vertices[v as usize];
     // Of two triangles with a common vertex only the sides opposite to it can pierce the other.
-    let pierces = |sides: [u32; 3], triangle: [u32; 3]| {
-        (0..3).any(|k| {
+    let pierced = |sides: [u32; 3], triangle: [u32; 3]| {
+        (0..3).find_map(|k| {
             let (p, q) = (sides[k], sides[(k + 1) % 3]);
-            !common.contains(&p)
-                && !common.contains(&q)
-                && segment_pierces(place(p), place(q), triangle.map(place), on_plane)
+            let is_free = !common.contains(&p) && !common.contains(&q);
+            is_free.then(|| pierced_at(place(p), place(q), triangle.map(place), on_plane))?
         })
     };
-    common.len() < 2 && (pierces(first, second) || pierces(second, first))
+    pierced(first, second).or_else(|| pierced(second, first))
 }
 
-/// Whether the segment from `p` to `q` passes through a triangle, its border included.
+/// Where the segment from `p` to `q` passes through a triangle, its border included.
 ///
 /// The signs of five tetrahedra tell (Segura and Feito, "Algorithms to test ray-triangle intersection",
 /// WSCG 2001).
-fn segment_pierces(p: DVec3, q: DVec3, [a, b, c]: [DVec3; 3], on_plane: f64) -> bool {
+fn pierced_at(p: DVec3, q: DVec3, [a, b, c]: [DVec3; 3], on_plane: f64) -> Option<DVec3> {
     let normal = (b - a).cross(c - a);
     let limit = on_plane * normal.length();
     let (above, below) = (normal.dot(p - a), normal.dot(q - a));
     if !(above > limit && below < -limit || above < -limit && below > limit) {
-        return false;
+        return None;
     }
     let side = |u: DVec3, v: DVec3| (u - p).cross(v - p).dot(q - p);
     let sides = [side(a, b), side(b, c), side(c, a)];
-    sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
+    let is_inside = sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0);
+    is_inside.then(|| p.lerp(q, above / (above - below)))
 }
 
 #[cfg(test)]

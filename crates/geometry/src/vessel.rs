@@ -11,6 +11,7 @@ use crate::{
         self,
         edges::{Edges, components},
     },
+    self_intersection::{cut_triangles, places},
     surface::Surface,
     unit::LengthUnit,
 };
@@ -188,6 +189,19 @@ impl Vessel {
         }
     }
 
+    /// Says where the surface cuts itself: what it encloses there is not what was meant.
+    fn look_for_cuts(&mut self) {
+        let places = places(&self.surface, &cut_triangles(&self.surface));
+        let Some(largest) = places.first() else { return };
+        let (n, at, radius) = (places.len(), largest.center * 1e3, largest.radius * 1e3);
+        self.audit.self_intersections = n;
+        self.audit.notices.push(format!(
+            "the surface cuts itself at {n} {}, most around {at:.4} mm within {radius:.4} mm; inside and outside are told by the winding number \
+             there, and the volume counts twice what lies in both sheets; mend it where it was made",
+            if n == 1 { "place" } else { "places" }
+        ));
+    }
+
     /// Fills in the counts of the finished surface.
     fn measure(&mut self) {
         let edges = Edges::new(&self.surface.triangles);
@@ -201,6 +215,13 @@ impl Vessel {
         lengths.sort_unstable_by(f64::total_cmp);
         if let (Some(&min), Some(&max)) = (lengths.first(), lengths.last()) {
             self.audit.edge_length = EdgeLengths { min, median: lengths[lengths.len() / 2], max };
+        }
+        self.look_for_cuts();
+        if self.audit.components > 1 {
+            let n = self.audit.components;
+            self.audit.notices.push(format!(
+                "the surface is in {n} separate parts that have openings; no blood goes from one to another"
+            ));
         }
         self.audit.triangles = self.surface.triangles.len();
         self.audit.vertices = self.surface.vertices.len();

@@ -326,3 +326,35 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_surface_that_cuts_itself_says_where() {
+    let mut surface = pipe();
+    // A point of the wall half way along, pushed through the far side.
+    let half = |v: &DVec3| (v.z - 0.015).abs() + (v.x - 0.004).abs();
+    let (k, _) =
+        surface.vertices.iter().enumerate().min_by(|a, b| half(a.1).total_cmp(&half(b.1))).expect("a wall");
+    surface.vertices[k].x = -0.006;
+    let far = DVec3::new(-RADIUS, surface.vertices[k].y, surface.vertices[k].z);
+    let found = vessel(surface);
+    assert_eq!(found.audit.self_intersections, 1, "{:?}", found.audit.notices);
+    let [notice] = &found.audit.notices[..] else { panic!("one notice: {:?}", found.audit.notices) };
+    assert!(notice.starts_with("the surface cuts itself at 1 place, most around ["), "{notice}");
+    let place = notice.split(['[', ']']).nth(1).expect("a place");
+    let place: Vec<f64> = place.split(", ").map(|x| 1e-3 * x.parse::<f64>().expect("a number")).collect();
+    assert!(DVec3::from_slice(&place).distance(far) < 0.1 * RADIUS, "{notice}");
+    assert_eq!(found.openings.len(), 2);
+}
+
+#[test]
+fn two_vessels_in_one_file_are_told_of() {
+    let mut surface = pipe();
+    let other = pipe().map(|v| v + DVec3::new(0.0, 0.02, 0.0));
+    let first = surface.vertices.len() as u32;
+    surface.vertices.extend(other.vertices);
+    surface.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
+    let found = vessel(surface);
+    assert_eq!((found.audit.components, found.audit.self_intersections, found.openings.len()), (2, 0, 4));
+    let [notice] = &found.audit.notices[..] else { panic!("one notice: {:?}", found.audit.notices) };
+    assert!(notice.contains("in 2 separate parts"), "{notice}");
+}

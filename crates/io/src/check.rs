@@ -36,6 +36,9 @@ pub struct SurfaceReport {
     pub watertight: bool,
     /// Connected pieces kept.
     pub components: u64,
+    /// Connected places at which the surface cuts itself; absent in files of earlier versions.
+    #[serde(default)]
+    pub self_intersections: u64,
     /// What was mended, in words.
     pub repairs: Vec<String>,
     /// Unit of the coordinates in the file.

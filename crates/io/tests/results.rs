@@ -48,6 +48,7 @@ fn surface() -> SurfaceReport {
         area_m2: 1.32166e-3,
         watertight: true,
         components: 1,
+        self_intersections: 0,
         repairs: vec!["reversed all triangles".into()],
         unit: "mm".into(),
     }

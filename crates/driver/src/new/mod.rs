@@ -173,7 +173,7 @@ fn surface_name(file: &Path) -> Result<String, DriverError> {
 /// The vessel with what is to be said about its unit.
 fn measure(file: &Path, unit: Option<LengthUnit>) -> Result<(Vessel, String), DriverError> {
     let enough = |vessel: &Vessel| match vessel.openings.len() {
-        0 | 1 => Err(DriverError::input(too_few_openings(vessel, file))),
+        0 | 1 => Err(DriverError::input(format!("{}: {}", file.display(), too_few_openings(vessel)))),
         _ => Ok(()),
     };
     // Without a unit it is measured as if in millimetres; what is found does not depend on it.

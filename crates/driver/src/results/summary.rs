@@ -116,6 +116,7 @@ pub fn surface_report(vessel: &vaso_geometry::Vessel) -> SurfaceReport {
         area_m2: vessel.surface.area(),
         watertight: vessel.audit.watertight,
         components: vessel.audit.components as u64,
+        self_intersections: vessel.audit.self_intersections as u64,
         repairs: vessel.audit.repairs.clone(),
         unit: vessel.unit.symbol().into(),
     }
