@@ -94,7 +94,9 @@ impl<R: Real> Fluid<R> {
         let mut found: Vec<(usize, f64, DVec3)> = (0..self.state.len())
             .into_par_iter()
             .with_min_len(CHUNK)
-            .filter(|&i| self.frozen[i].inverse_distance > 0.0)
+            // An advective step takes no particle much further than a quarter of a smoothing length. What has come from farther inside than a
+            // spacing all the same stands beyond the wall when the next step measures its distance, and is found at the end of that.
+            .filter(|&i| self.frozen[i].inverse_distance * spacing > 1.0)
             .filter_map(|i| {
                 let moved = self.moving.as_ref().map_or(DVec3::ZERO, |m| m.displacement[i]);
                 let (phi, gradient) = self.distance(self.state.position[i] - moved);
