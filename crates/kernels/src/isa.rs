@@ -64,6 +64,20 @@ impl Isa {
     }
 }
 
+/// Runs `work` on one number after the other, compiled for `isa`: by that it is faster, with the same results for all.
+///
+/// The closure must be marked `#[inline(always)]`, where it is handed over: else it is compiled without those instructions.
+pub fn run_on(isa: Isa, work: impl FnOnce()) {
+    struct Plain<F>(F);
+    impl<F: FnOnce()> LaneWork<f64> for Plain<F> {
+        #[inline(always)]
+        fn run<L: Lanes<Elem = f64>, S: crate::lanes::SearchLanes>(self) {
+            (self.0)();
+        }
+    }
+    dispatch::<f64, _>(isa, Plain(work));
+}
+
 /// Work written once over lanes. `run` must be `#[inline(always)]`, else it is compiled without
 /// the instructions that [`dispatch`] enables.
 pub(crate) trait LaneWork<R: Real> {

@@ -16,10 +16,10 @@ pub mod wendland;
 
 pub use frame::Frame;
 pub use grid::CellGrid;
-pub use isa::Isa;
+pub use isa::{Isa, run_on};
 pub use lanes::{FIELDS, Lanes, Real};
 pub use links::{LinkLaw, LinkStore, sweep_links};
-pub use pairs::{Gather, Own, Pair, PairLaw, PairStore, Store, Stored, sweep};
+pub use pairs::{Gather, Own, Pair, PairLaw, PairStore, Store, Stored, sweep, sweep_some};
 pub use points::{BLOCK, BlockColumn, PointLaw, Points, sweep_points};
 pub use records::Records;
 pub use rows::{CHUNK, RowChunk, Rows, SearchSet};

@@ -6,7 +6,7 @@
 
 use crate::frame::Frame;
 use crate::isa::{Isa, LaneWork, dispatch};
-use crate::lanes::{FIELDS, Lanes, Real, SearchLanes};
+use crate::lanes::{FIELDS, Lanes, Real, SearchLanes, add_lanes};
 use crate::records::Records;
 use crate::rows::{RowChunk, make_room};
 
@@ -144,8 +144,24 @@ pub fn sweep<R: Real, P: PairLaw<R, K>, const K: usize>(
     isa: Isa,
     law: &P,
     gather: &Gather<R>,
+    rows: (&RowChunk, usize),
+    store: Store<R>,
+    sums: &mut [[f64; K]],
+) {
+    sweep_some(isa, law, gather, rows, store, |_| true, sums);
+}
+
+/// [`sweep`] over the rows that `takes` is true of; the sums of the others stay as they are.
+///
+/// # Panics
+/// If records, store and rows do not belong together.
+pub fn sweep_some<R: Real, P: PairLaw<R, K>, const K: usize>(
+    isa: Isa,
+    law: &P,
+    gather: &Gather<R>,
     (chunk, first): (&RowChunk, usize),
     store: Store<R>,
+    takes: impl Fn(usize) -> bool,
     sums: &mut [[f64; K]],
 ) {
     let n = chunk.len();
@@ -162,23 +178,24 @@ pub fn sweep<R: Real, P: PairLaw<R, K>, const K: usize>(
         (Stored::Write, Store::Write(s)) if s.len() == chunk.at.len() => (std::ptr::null(), s.as_mut_ptr()),
         _ => panic!("the store does not fit the law or the rows"),
     };
-    dispatch(isa, Sweep { law, gather, chunk, first, read, write, sums });
+    dispatch(isa, Sweep { law, gather, chunk, first, read, write, takes, sums });
 }
 
-struct Sweep<'a, R, P, const K: usize> {
+struct Sweep<'a, R, P, F, const K: usize> {
     law: &'a P,
     gather: &'a Gather<'a, R>,
     chunk: &'a RowChunk,
     first: usize,
     read: *const R,
     write: *mut R,
+    takes: F,
     sums: &'a mut [[f64; K]],
 }
 
-/// Entries of the index stream to fetch ahead (2 KiB): the hardware does not keep up between gathers.
-const AHEAD: usize = 512;
+/// Entries of the index stream to fetch ahead (2 KiB), and of what is stored beside it: the hardware does not keep up between gathers.
+pub(crate) const AHEAD: usize = 512;
 
-impl<R: Real, P: PairLaw<R, K>, const K: usize> LaneWork<R> for Sweep<'_, R, P, K> {
+impl<R: Real, P: PairLaw<R, K>, F: Fn(usize) -> bool, const K: usize> LaneWork<R> for Sweep<'_, R, P, F, K> {
     #[inline(always)]
     fn run<L: Lanes<Elem = R>, S: SearchLanes>(self) {
         let constants = self.law.constants::<L>();
@@ -188,7 +205,14 @@ impl<R: Real, P: PairLaw<R, K>, const K: usize> LaneWork<R> for Sweep<'_, R, P, 
         let other_second = self.gather.other_second.map_or(other_base, Records::base);
         let tiny = L::constant(1e-24);
         for (k, sums) in self.sums.iter_mut().enumerate().take(self.chunk.len()) {
+            if !(self.takes)(k) {
+                continue;
+            }
             let (begin, end) = (self.chunk.start[k] as usize, self.chunk.start[k + 1] as usize);
+            if begin == end {
+                *sums = [0.0; K];
+                continue;
+            }
             let i = FIELDS * (self.first + k);
             // SAFETY: `sweep` has checked that the record exists.
             let record: [L; FIELDS] = std::array::from_fn(|f| L::splat(unsafe { *own_base.add(i + f) }));
@@ -208,6 +232,9 @@ impl<R: Real, P: PairLaw<R, K>, const K: usize> LaneWork<R> for Sweep<'_, R, P, 
                     let at = self.chunk.at.as_ptr().add(m);
                     if m % 16 == 0 {
                         L::prefetch(at.wrapping_add(AHEAD));
+                        if P::STORED == Stored::Read {
+                            L::prefetch(self.read.wrapping_add(m + AHEAD).cast());
+                        }
                     }
                     let other = L::records(other_base, at);
                     let d = [
@@ -236,10 +263,7 @@ impl<R: Real, P: PairLaw<R, K>, const K: usize> LaneWork<R> for Sweep<'_, R, P, 
                 }
                 m += L::N;
             }
-            // Not `total.map`: it is not inlined for long arrays, and leaves the vector instructions behind.
-            for (sum, lanes) in sums.iter_mut().zip(&total) {
-                *sum = lanes.sum();
-            }
+            add_lanes(&total, sums);
         }
     }
 }

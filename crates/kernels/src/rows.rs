@@ -215,16 +215,16 @@ impl<R: Real> LaneWork<R> for Search<'_> {
         at.clear();
         *n_pairs = 0;
         *largest = null;
-        // Neighbours in the order share a cell, and with it the runs to search.
-        let mut cell = [usize::MAX; 3];
+        // Neighbours in the order share a slice, and with it the runs to search.
+        let mut slice = [usize::MAX; 3];
         let mut runs = self.grid.runs_around([0; 3]);
         let mut candidates = 0;
         for i in self.first..self.last {
             start.push(at.len() as u32);
             let own = self.set.get(i);
             let here = self.grid.coordinates(self.position[i]);
-            if here != cell {
-                cell = here;
+            if here != slice {
+                slice = here;
                 runs = self.grid.runs_around(here);
                 candidates = runs.as_slice().iter().map(|&(begin, end)| end - begin).sum();
             }

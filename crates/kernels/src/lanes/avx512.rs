@@ -64,6 +64,32 @@ unsafe fn gather_fields(a: __m512d, b: __m512d, c: __m512d, d: __m512d) -> [F64x
     }
 }
 
+/// Sums the halves of two registers: quarters `a0 + a2`, `a1 + a3`, and the same of `b`.
+#[inline(always)]
+unsafe fn add_halves(a: __m512, b: __m512) -> __m512 {
+    unsafe { _mm512_add_ps(_mm512_shuffle_f32x4::<0x44>(a, b), _mm512_shuffle_f32x4::<0xEE>(a, b)) }
+}
+
+/// One quarter a vector, each with four partial sums.
+#[inline(always)]
+unsafe fn add_quarters(v: [F32x16; 4]) -> __m512 {
+    unsafe {
+        let (ab, cd) = (add_halves(v[0].0, v[1].0), add_halves(v[2].0, v[3].0));
+        _mm512_add_ps(_mm512_shuffle_f32x4::<0x88>(ab, cd), _mm512_shuffle_f32x4::<0xDD>(ab, cd))
+    }
+}
+
+/// One quarter a vector, each with two partial sums.
+#[inline(always)]
+unsafe fn add_halves_f64(v: [F64x8; 4]) -> __m512d {
+    unsafe {
+        let (a, b, c, d) = (v[0].0, v[1].0, v[2].0, v[3].0);
+        let ab = _mm512_add_pd(_mm512_shuffle_f64x2::<0x44>(a, b), _mm512_shuffle_f64x2::<0xEE>(a, b));
+        let cd = _mm512_add_pd(_mm512_shuffle_f64x2::<0x44>(c, d), _mm512_shuffle_f64x2::<0xEE>(c, d));
+        _mm512_add_pd(_mm512_shuffle_f64x2::<0x88>(ab, cd), _mm512_shuffle_f64x2::<0xDD>(ab, cd))
+    }
+}
+
 /// Separations from sixteen candidates along one axis, in supports.
 #[inline(always)]
 unsafe fn search_delta(own: i32, p: *const i32, unit: __m512) -> __m512 {
@@ -107,6 +133,21 @@ impl Lanes for F32x16 {
     #[inline(always)]
     fn sum(self) -> f64 {
         unsafe { f64::from(_mm512_reduce_add_ps(self.0)) }
+    }
+    /// Adds halves, quarters, then within quarters, as [`Self::sum`] does.
+    #[inline(always)]
+    fn sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> [f64; 8] {
+        let mut out = [0.0; 8];
+        unsafe {
+            let (abcd, efgh) = (add_quarters([a, b, c, d]), add_quarters([e, f, g, h]));
+            let two =
+                _mm512_add_ps(_mm512_shuffle_ps::<0x44>(abcd, efgh), _mm512_shuffle_ps::<0xEE>(abcd, efgh));
+            let one = _mm512_add_ps(two, _mm512_permute_ps::<0xB1>(two));
+            let lane = _mm512_setr_epi32(0, 4, 8, 12, 2, 6, 10, 14, 0, 0, 0, 0, 0, 0, 0, 0);
+            let eight = _mm512_castps512_ps256(_mm512_permutexvar_ps(lane, one));
+            _mm512_storeu_pd(out.as_mut_ptr(), _mm512_cvtps_pd(eight));
+        }
+        out
     }
     #[inline(always)]
     fn delta(self, o: Self, unit: Self) -> Self {
@@ -196,6 +237,18 @@ impl Lanes for F64x8 {
     #[inline(always)]
     fn sum(self) -> f64 {
         unsafe { _mm512_reduce_add_pd(self.0) }
+    }
+    /// Adds halves, then quarters, then within quarters, as [`Self::sum`] does.
+    #[inline(always)]
+    fn sums([a, b, c, d, e, f, g, h]: [Self; 8]) -> [f64; 8] {
+        let mut out = [0.0; 8];
+        unsafe {
+            let (abcd, efgh) = (add_halves_f64([a, b, c, d]), add_halves_f64([e, f, g, h]));
+            let one = _mm512_add_pd(_mm512_unpacklo_pd(abcd, efgh), _mm512_unpackhi_pd(abcd, efgh));
+            let lane = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
+            _mm512_storeu_pd(out.as_mut_ptr(), _mm512_permutexvar_pd(lane, one));
+        }
+        out
     }
     #[inline(always)]
     fn delta(self, o: Self, _unit: Self) -> Self {
