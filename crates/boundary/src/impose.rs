@@ -60,7 +60,7 @@ impl Openings {
                 fluid.state.density_rate[i] = 0.0;
             }
             if let Some(velocity) = velocity {
-                fluid.set_velocity(i, velocity, dt);
+                fluid.set_velocity(i, velocity);
                 top = top.max(velocity.length());
             }
             // The fringe counts: flow that comes in keeps the particles of the buffer half a spacing further in.

@@ -2,6 +2,7 @@
 
 use crate::buffer::FRINGE;
 use crate::openings::Openings;
+use rayon::prelude::*;
 use vaso_fluid::FluidState;
 
 /// Length of the section, in spacings.
@@ -21,7 +22,7 @@ impl Openings {
             self.behind.push(if port.condition.sets_pressure() {
                 Vec::new()
             } else {
-                (0..state.len() as u32).filter(is_behind).collect()
+                (0..state.len() as u32).into_par_iter().with_min_len(4096).filter(is_behind).collect()
             });
         }
     }

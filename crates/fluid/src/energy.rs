@@ -28,7 +28,7 @@ impl<R: Real> Fluid<R> {
                     let (m, v) = (state.mass[i], state.velocity[i]);
                     [
                         kinetic + 0.5 * m * v.length_squared(),
-                        friction - m * v.dot(self.frozen[i].acceleration),
+                        friction - m * v.dot(self.columns.acceleration(i)),
                     ]
                 })
             })

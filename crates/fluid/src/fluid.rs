@@ -1,6 +1,7 @@
 //! The fluid body of a run: its state, its neighbours and what is frozen for an advective step.
 
 use crate::cap::CapZone;
+use crate::frozen::{ChunkKind, Columns, ForContinuity, ForMomentum, Frozen};
 use crate::moving::Moving;
 use crate::numbers::Numbers;
 use crate::state::FluidState;
@@ -8,75 +9,9 @@ use crate::wall::WallSide;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use vaso_kernels::{
-    CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Sym3, Wendland,
+    CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Wendland,
 };
 use vaso_particles::{Memory, WallDistance, WallView, visit};
-
-/// What a particle keeps for all acoustic steps of one advective step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Frozen {
-    /// Correction matrix B.
-    pub correction: Sym3,
-    /// `sum V grad W` over the fluid \[1/m\].
-    pub fluid_gradient: DVec3,
-    /// `sum V grad W` over the wall \[1/m\].
-    pub wall_gradient: DVec3,
-    /// What the own pressure multiplies \[1/m\]: `-B_i sum V grad W`, so that pairs have the difference of their pressures; where
-    /// [`Self::takes_pressure`], `sum V B_j grad W` over the fluid plus `B_i` times that over the wall, the sum.
-    pub own_pressure: DVec3,
-    /// `sum V (B_i + B_j) grad W`, zero where the support is complete \[1/m\].
-    pub support: DVec3,
-    /// Acceleration that changes only with the advective step: viscosity \[m/s^2\].
-    pub acceleration: DVec3,
-    /// Unit normal of the nearest wall, towards the fluid.
-    pub wall_normal: DVec3,
-    /// `sum V (x_j - x_i) (x) grad W` over the fluid: the part of the moment matrix that continuity sees.
-    pub fluid_moment: Sym3,
-    /// What continuity takes for compression in a flow that only shears, by uneven neighbours \[1/s\]; zero near caps.
-    pub false_convergence: f64,
-    /// What the sum over the fluid finds of a divergence along the wall has to be multiplied by, as the fluid ends there; 1 away from walls.
-    pub along_wall: f64,
-    /// `sum V |dW/dr|` over the wall \[1/m\].
-    pub wall_area: f64,
-    /// Inverse distance to the wall \[1/m\].
-    pub inverse_distance: f64,
-    /// Depth behind a cap \[supports\] as [`CapDivergence`](crate::law::density::CapDivergence) takes it; [`FAR`] away from
-    /// caps.
-    pub cap_depth: f64,
-    /// Whether the pressure of an opening enters here, see [`CapZone::takes_pressure`].
-    pub takes_pressure: bool,
-}
-
-/// [`Frozen::cap_depth`] away from caps.
-pub(crate) const FAR: f64 = 1e3;
-
-impl Frozen {
-    /// Distance to the wall \[m\]; zero where it is beyond reach.
-    pub(crate) fn wall_distance(&self) -> f64 {
-        if self.inverse_distance > 0.0 { 1.0 / self.inverse_distance } else { 0.0 }
-    }
-}
-
-impl Default for Frozen {
-    fn default() -> Self {
-        Self {
-            correction: Sym3::IDENTITY,
-            fluid_gradient: DVec3::ZERO,
-            wall_gradient: DVec3::ZERO,
-            own_pressure: DVec3::ZERO,
-            support: DVec3::ZERO,
-            acceleration: DVec3::ZERO,
-            wall_normal: DVec3::ZERO,
-            fluid_moment: Sym3([0.0; 6]),
-            false_convergence: 0.0,
-            along_wall: 1.0,
-            wall_area: 0.0,
-            inverse_distance: 0.0,
-            cap_depth: FAR,
-            takes_pressure: false,
-        }
-    }
-}
 
 /// Weakly compressible fluid in a vessel.
 ///
@@ -104,7 +39,12 @@ pub struct Fluid<R> {
     /// Second records: correction matrices, then velocity gradients.
     pub(crate) second: Records<R>,
     pub(crate) offsets: PairStore<R>,
-    pub(crate) frozen: Vec<Frozen>,
+    pub(crate) frozen: Vec<Frozen<R>>,
+    pub(crate) columns: Columns<R>,
+    /// What the acoustic steps read of [`Self::frozen`], from [`Self::begin_acoustic`] on, and by which laws.
+    pub(crate) for_momentum: Vec<ForMomentum<R>>,
+    pub(crate) for_continuity: Vec<ForContinuity<R>>,
+    pub(crate) kinds: Vec<ChunkKind>,
     /// Gradients of the components of the velocity, column by column \[1/s\].
     pub(crate) slope: Vec<DMat3>,
     /// One more than the place in the zone list, zero away from caps.
@@ -149,6 +89,10 @@ impl<R: Real> Fluid<R> {
             second: Records::default(),
             offsets: PairStore::default(),
             frozen: Vec::new(),
+            columns: Columns::default(),
+            for_momentum: Vec::new(),
+            for_continuity: Vec::new(),
+            kinds: Vec::new(),
             slope: Vec::new(),
             zone_of: Vec::new(),
             lattice_sum: kernel.lattice_sum(numbers.spacing),
@@ -191,7 +135,10 @@ impl<R: Real> Fluid<R> {
             + self.second.bytes()
             + self.offsets.bytes()
             + self.grid.bytes()
-            + self.frozen.capacity() * size_of::<Frozen>()
+            + self.columns.bytes()
+            + self.frozen.capacity() * size_of::<Frozen<R>>()
+            + self.for_momentum.capacity() * size_of::<ForMomentum<R>>()
+            + self.for_continuity.capacity() * size_of::<ForContinuity<R>>()
             + self.slope.capacity() * size_of::<DMat3>()
             + 4 * (self.zone_of.capacity() + self.order.capacity())
     }
@@ -216,6 +163,10 @@ impl<R: Real> Fluid<R> {
             second: _,
             offsets: _,
             frozen: _,
+            columns: _,
+            for_momentum: _,
+            for_continuity: _,
+            kinds: _,
             slope: _,
             zone_of: _,
             lattice_sum: _,
@@ -255,7 +206,8 @@ impl<R: Real> Fluid<R> {
         for (k, zone) in zones.iter().enumerate() {
             self.zone_of[zone.particle as usize] = k as u32 + 1;
         }
-        self.frozen.resize(n, Frozen::default());
+        self.frozen.resize(n, Frozen::new(DVec3::ZERO, None, self.reach));
+        self.columns.resize(n);
         if self.moving.is_some() {
             self.see_wall();
         }
@@ -263,23 +215,28 @@ impl<R: Real> Fluid<R> {
         let (distance, reach, rows) = (&self.wall_distance, self.reach, &self.wall.fluid_rows);
         let (position, zone_of) = (&self.state.position, &self.zone_of);
         let displacement = self.moving.as_ref().map(|m| m.displacement.as_slice());
-        self.frozen.par_chunks_mut(CHUNK).zip(rows.chunks()).enumerate().for_each(|(c, (frozen, row))| {
-            for (k, frozen) in frozen.iter_mut().enumerate() {
-                *frozen = Frozen::default();
-                let i = c * CHUNK + k;
-                let zone = zone_of[i].checked_sub(1).map(|zone| &zones[zone as usize]);
-                if let Some(zone) = zone {
-                    frozen.cap_depth = zone.open_depth() / reach;
-                    frozen.takes_pressure = zone.takes_pressure;
+        (
+            self.frozen.par_chunks_mut(CHUNK),
+            self.columns.inverse_distance.par_chunks_mut(CHUNK),
+            rows.chunks(),
+        )
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(c, (frozen, inverse_distance, row))| {
+                for (k, (frozen, inverse)) in frozen.iter_mut().zip(inverse_distance).enumerate() {
+                    let i = c * CHUNK + k;
+                    let zone = zone_of[i].checked_sub(1).map(|zone| &zones[zone as usize]);
+                    let mut normal = DVec3::ZERO;
+                    *inverse = R::default();
+                    if !row.is_row_empty(k) {
+                        let moved = displacement.map_or(DVec3::ZERO, |u| u[i]);
+                        let (phi, gradient) = distance.sample(position[i] - moved);
+                        *inverse = R::pack(1.0 / (-phi).clamp(floor, reach));
+                        normal = zone.map_or(-gradient, |zone| zone.upright(-gradient, reach));
+                    }
+                    *frozen = Frozen::new(normal, zone, reach);
                 }
-                if !row.is_row_empty(k) {
-                    let moved = displacement.map_or(DVec3::ZERO, |u| u[i]);
-                    let (phi, gradient) = distance.sample(position[i] - moved);
-                    frozen.inverse_distance = 1.0 / (-phi).clamp(floor, reach);
-                    frozen.wall_normal = zone.map_or(-gradient, |zone| zone.upright(-gradient, reach));
-                }
-            }
-        });
+            });
     }
 
     /// Signed distance to the wall \[m\] and its gradient, where the wall was when the distance was measured.
@@ -306,7 +263,7 @@ impl<R: Real> Fluid<R> {
 
     /// Acceleration of particle `i` by viscosity \[m/s^2\], as [`Self::viscosity`] has found it.
     pub fn viscous_acceleration(&self, i: usize) -> DVec3 {
-        self.frozen[i].acceleration
+        self.columns.acceleration(i)
     }
 
     /// Pressure of particle `i` \[Pa\] relative to the reference pressure, the mean over the last advective step.
@@ -322,15 +279,12 @@ impl<R: Real> Fluid<R> {
     /// Missing kernel support `sum V (B_i + B_j) grad W` of particle `i` \[1/m\]: a boundary
     /// pressure `p_b` on the missing side accelerates it by `p_b / rho` times this.
     pub fn missing_support(&self, i: usize) -> DVec3 {
-        self.frozen[i].support
+        self.columns.support(i)
     }
 
-    /// Gives particle `i` a new velocity \[m/s\] after the kick of an acoustic step `dt` \[s\],
-    /// its drift included.
-    pub fn set_velocity(&mut self, i: usize, velocity: DVec3, dt: f64) {
-        let change = velocity - self.state.velocity[i];
+    /// Gives particle `i` a new velocity \[m/s\] after the kick of an acoustic step, with which it drifts to the end of it.
+    pub fn set_velocity(&mut self, i: usize, velocity: DVec3) {
         self.state.velocity[i] = velocity;
-        self.state.position[i] += 0.5 * dt * change;
         let record = &mut self.next.as_mut_slice()[i];
         record[4] = R::pack(velocity.x);
         record[5] = R::pack(velocity.y);

@@ -2,8 +2,11 @@
 
 mod acoustic;
 pub mod cap;
+mod continuity;
 pub mod energy;
 pub mod fluid;
+mod frozen;
+mod kick;
 pub mod law;
 mod level;
 mod moving;

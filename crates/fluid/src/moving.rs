@@ -3,10 +3,8 @@
 //! Positions are taken once an advective step ([`Fluid::take_wall`]), velocities after each acoustic step of the wall
 //! ([`Fluid::set_wall_velocity`]). A fluid whose wall is at rest has none of this.
 
-use crate::fluid::{Fluid, Frozen, first_of, numbered};
-use crate::law::moving::{self, AcceleratedWallPressure, SurfaceDisplacement, WallVelocity};
-use crate::law::pressure::FULL;
-use crate::numbers::Numbers;
+use crate::fluid::{Fluid, numbered};
+use crate::law::moving::{self, SurfaceDisplacement, WallContact, WallVelocity};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Records, Store, sweep};
@@ -38,7 +36,7 @@ pub(crate) struct Moving<R> {
     pub(crate) correction: Records<R>,
     /// Fluid as the wall sees it: its scalar is what the wall gets from it.
     pub(crate) seen: Records<R>,
-    /// Sums over the fluid around each wall particle within reach, of which its [`Contact`](crate::Contact) is made.
+    /// Sums over the fluid around each wall particle within reach, of which its pressure and its [`Contact`](crate::Contact) are made.
     pub(crate) contact: Vec<[f64; moving::CONTACT_SUMS]>,
 }
 
@@ -48,12 +46,12 @@ pub(crate) const OUT_OF_REACH: u32 = u32::MAX;
 /// Bounds of the factors of [`Fluid::release_wall`]: at creases the divergence of the normals is none of a surface.
 const LEVERS: (f64, f64) = (0.7, 1.3);
 
-/// How a wall enters the acoustic step, at rest or in motion.
+/// What of a wall enters the acoustic step, at rest or in motion.
 pub(crate) trait Wall: Sync {
-    /// Force of the dissipation at the wall on particle `i` of velocity `v` \[m/s\], by volume \[N/m^3\].
-    fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3;
-    /// Divergence between particle `i` and the wall, negative where they part \[1/s\].
-    fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64;
+    /// Velocity of the wall near particle `i` \[m/s\].
+    fn velocity(&self, i: usize) -> DVec3;
+    /// Half of the divergence at particle `i` that the motion of the wall adds, with the other sign \[1/s\].
+    fn flux(&self, i: usize) -> f64;
 }
 
 /// A wall at rest.
@@ -61,18 +59,13 @@ pub(crate) struct AtRest;
 
 impl Wall for AtRest {
     #[inline(always)]
-    fn dissipation(&self, _: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3 {
-        let impedance = numbers.rest_density * numbers.sound_speed;
-        // Closing speed of the particle and its mirror image behind the wall.
-        let closing = (-2.0 * v.dot(frozen.wall_normal)).max(0.0);
-        let limited = (FULL * closing / numbers.sound_speed).min(1.0);
-        frozen.wall_area * limited * impedance * closing * frozen.wall_normal
+    fn velocity(&self, _: usize) -> DVec3 {
+        DVec3::ZERO
     }
 
     #[inline(always)]
-    fn convergence(&self, _: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        // The mirrored velocity doubles the part of the wall.
-        2.0 * v.dot(frozen.wall_normal) * frozen.wall_gradient.dot(frozen.wall_normal)
+    fn flux(&self, _: usize) -> f64 {
+        0.0
     }
 }
 
@@ -90,23 +83,14 @@ impl<R> Moving<R> {
 
 impl<R: Real> Wall for Moving<R> {
     #[inline(always)]
-    fn dissipation(&self, i: usize, v: DVec3, frozen: &Frozen, numbers: &Numbers) -> DVec3 {
-        let pressure = closing_pressure(v - self.velocity[i], frozen, numbers);
-        -pressure * frozen.correction.mul(frozen.wall_gradient)
+    fn velocity(&self, i: usize) -> DVec3 {
+        self.velocity[i]
     }
 
     #[inline(always)]
-    fn convergence(&self, i: usize, v: DVec3, frozen: &Frozen) -> f64 {
-        2.0 * (v.dot(frozen.wall_normal) * frozen.wall_gradient.dot(frozen.wall_normal) + self.flux[i])
+    fn flux(&self, i: usize) -> f64 {
+        self.flux[i]
     }
-}
-
-/// Pressure of the dissipation between a particle and its mirror image behind a wall, from its velocity relative to the wall
-/// \[m/s\]. As a pressure it has a pair for each wall particle, so that the wall gets back what it gives.
-pub(crate) fn closing_pressure(relative: DVec3, frozen: &Frozen, numbers: &Numbers) -> f64 {
-    let closing = (-2.0 * relative.dot(frozen.wall_normal)).max(0.0);
-    let limited = (FULL * closing / numbers.sound_speed).min(1.0);
-    limited * numbers.rest_density * numbers.sound_speed * closing
 }
 
 impl<R: Real> Fluid<R> {
@@ -285,35 +269,28 @@ impl<R: Real> Fluid<R> {
     }
 
     /// Pressure of the particles of a wall that moves: the kernel mean of that of the fluid, continued by the acceleration of the
-    /// wall (Adami, Hu and Adams 2012, eq. 27).
+    /// wall (Adami, Hu and Adams 2012, eq. 27). Of the same neighbours comes what the kick will do to the wall.
     pub(crate) fn moving_wall_pressure(&mut self) {
-        let (isa, frame) = (self.isa, &self.frame);
-        let wall = &mut self.wall;
-        let Some(moving) = &self.moving else { return };
-        let acceleration = &moving.acceleration;
-        let per_separation = self.numbers.rest_density * frame.support();
-        let gather = Gather {
-            frame,
-            own: &wall.kinematic,
-            other: &self.current,
-            own_second: None,
-            other_second: None,
-        };
-        wall.dynamic
-            .as_mut_slice()
-            .par_chunks_mut(CHUNK)
-            .zip(wall.wall_rows.chunks())
-            .enumerate()
-            .filter(|(_, (_, row))| !row.has_no_pairs())
-            .for_each(|(c, (records, row))| {
-                let mut sums = [[0.0; 5]; CHUNK];
-                sweep(isa, &AcceleratedWallPressure, &gather, numbered(row, c), Store::None, &mut sums);
-                for (k, (record, [weighted, weight, x, y, z])) in records.iter_mut().zip(sums).enumerate() {
-                    let a = acceleration.get(first_of(c) + k).copied().unwrap_or_default();
-                    let continued = weighted - per_separation * a.dot(DVec3::new(x, y, z));
-                    record[7] = R::pack(if weight > 0.0 { continued / weight } else { 0.0 });
-                }
-            });
+        let Some(mut moving) = self.moving.take() else { return };
+        self.show_pressure(&mut moving);
+        let per_separation = self.numbers.rest_density * self.frame.support();
+        let dynamic = &self.wall.dynamic;
+        let mut contact = std::mem::take(&mut moving.contact);
+        self.gather_on_wall(&WallContact, dynamic, &moving, &mut contact);
+        let records = self.wall.dynamic.as_mut_slice();
+        (records, &mut contact).into_par_iter().enumerate().with_min_len(1024).for_each(
+            |(k, (record, sums))| {
+                let [weighted, weight, x, y, z, ..] = *sums;
+                let near = record[7].widen();
+                let a = moving.acceleration.get(k).copied().unwrap_or_default();
+                let continued = weighted - per_separation * a.dot(DVec3::new(x, y, z));
+                record[7] = R::pack(if weight > 0.0 { near + continued / weight } else { 0.0 });
+                // From here on the first sum is the pressure that the others are relative to.
+                sums[0] = near;
+            },
+        );
+        moving.contact = contact;
+        self.moving = Some(moving);
     }
 
     /// Bytes held for a wall that moves.

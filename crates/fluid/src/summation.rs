@@ -2,11 +2,12 @@
 
 use crate::cap::CapZone;
 use crate::fluid::{Fluid, numbered};
+use crate::frozen;
 use crate::law::moments::{Moments, SUMS};
 use crate::level::in_buffer;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, sweep};
+use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, run_on, sweep};
 
 impl<R: Real> Fluid<R> {
     /// Blends the density towards the kernel sum, `rho += omega (rho_sum - rho)` with
@@ -57,25 +58,36 @@ impl<R: Real> Fluid<R> {
                 if !wall_row.has_no_pairs() {
                     sweep(isa, &WallMoments, &wall_gather, numbered(wall_row, c), Store::None, &mut walls);
                 }
-                for k in 0..frozen.len() {
-                    let i = c * CHUNK + k;
-                    let (f, w) = (&fluid[k], &walls[k]);
-                    // The self term has u = 1, so u^4 (5 - 4u) = 1.
-                    let kernel_sum = value * (f[0] + mass[i] / rho0 + w[0]);
-                    let summed = rho0 * (kernel_sum / s0 - 1.0);
-                    if !in_buffer(zones, zone_of[k]) {
-                        density_change[k] += omega * (summed - density_change[k]);
-                    }
-                    let moment = Sym3(std::array::from_fn(|q| gradient * support * (f[4 + q] + w[4 + q])));
-                    let frozen = &mut frozen[k];
-                    frozen.correction = if corrects { Sym3::correction(&moment) } else { Sym3::IDENTITY };
-                    frozen.fluid_gradient = -gradient * DVec3::new(f[1], f[2], f[3]);
-                    frozen.wall_gradient = -gradient * DVec3::new(w[1], w[2], w[3]);
-                    frozen.wall_area = gradient * w[10];
-                    frozen.fluid_moment = Sym3(std::array::from_fn(|q| gradient * support * f[4 + q]));
-                    frozen.along_wall = along_wall(&moment, &frozen.fluid_moment, frozen.wall_normal);
-                    second[k] = pack_sym(&frozen.correction.0);
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for k in 0..frozen.len() {
+                            let i = c * CHUNK + k;
+                            let (f, w) = (&fluid[k], &walls[k]);
+                            // The self term has u = 1, so u^4 (5 - 4u) = 1.
+                            let kernel_sum = value * (f[0] + mass[i] / rho0 + w[0]);
+                            let summed = rho0 * (kernel_sum / s0 - 1.0);
+                            if !in_buffer(zones, zone_of[k]) {
+                                density_change[k] += omega * (summed - density_change[k]);
+                            }
+                            let moment =
+                                Sym3(std::array::from_fn(|q| gradient * support * (f[4 + q] + w[4 + q])));
+                            let frozen = &mut frozen[k];
+                            let fluid_moment = Sym3(std::array::from_fn(|q| gradient * support * f[4 + q]));
+                            let moments = frozen::Moments {
+                                correction: if corrects { Sym3::correction(&moment) } else { Sym3::IDENTITY },
+                                fluid_gradient: -gradient * DVec3::new(f[1], f[2], f[3]),
+                                wall_gradient: -gradient * DVec3::new(w[1], w[2], w[3]),
+                                wall_area: gradient * w[10],
+                                along_wall: along_wall(&moment, &fluid_moment, frozen.wall_normal()),
+                                fluid_moment,
+                            };
+                            frozen.set_moments(&moments);
+                            second[k] = pack_sym(&moments.correction.0);
+                        }
+                    },
+                );
             });
         self.current = current;
         if let Some(before) = held {
@@ -88,6 +100,7 @@ impl<R: Real> Fluid<R> {
 const MAX_ALONG_WALL: f64 = 3.0;
 
 /// Moment along a wall of `normal` over that of the fluid alone.
+#[inline(always)]
 fn along_wall(Sym3(all): &Sym3, Sym3(fluid): &Sym3, normal: DVec3) -> f64 {
     if normal == DVec3::ZERO {
         return 1.0;

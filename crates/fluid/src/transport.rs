@@ -2,6 +2,7 @@
 
 use crate::cap::CapZone;
 use crate::fluid::{Fluid, numbered};
+use crate::frozen::widen;
 use crate::law::separation::Separation;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -22,6 +23,9 @@ const PENETRATION: f64 = 0.05;
 const PUT_BACK: f64 = 0.25;
 /// Distance outside \[spacings\] from which a particle is lost.
 const LOST: f64 = 2.0;
+
+/// Spacings over the distance from the wall within which particles are looked at.
+const NEAR: f64 = 2.0;
 
 /// Distance \[spacings\] below which particles near caps are parted. A relaxed set has none nearer than 0.75, a flow hardly any
 /// below.
@@ -52,18 +56,18 @@ impl<R: Real> Fluid<R> {
         (
             self.state.position.par_chunks_mut(CHUNK),
             self.state.velocity.par_chunks_mut(CHUNK),
-            self.frozen.par_chunks(CHUNK),
+            self.columns.support.par_chunks(CHUNK),
             self.rows.chunks(),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (position, velocity, frozen, row))| {
+            .for_each(|(c, (position, velocity, support_sums, row))| {
                 let mut crowd = [[0.0; 3]; CHUNK];
                 if (0..position.len()).any(|k| zone_of[c * CHUNK + k] != 0) {
                     sweep(isa, &law, &gather, numbered(row, c), Store::None, &mut crowd);
                 }
                 for (k, x) in position.iter_mut().enumerate() {
-                    let mut residual = 0.5 * frozen[k].support;
+                    let mut residual = 0.5 * widen(support_sums[k]);
                     let mut parting = DVec3::ZERO;
                     if let Some(zone) = zone_of[c * CHUNK + k].checked_sub(1) {
                         let normal = zones[zone as usize].normal;
@@ -94,9 +98,9 @@ impl<R: Real> Fluid<R> {
         let mut found: Vec<(usize, f64, DVec3)> = (0..self.state.len())
             .into_par_iter()
             .with_min_len(CHUNK)
-            // An advective step takes no particle much further than a quarter of a smoothing length. What has come from farther inside than a
-            // spacing all the same stands beyond the wall when the next step measures its distance, and is found at the end of that.
-            .filter(|&i| self.frozen[i].inverse_distance * spacing > 1.0)
+            // An advective step takes no particle much further than a quarter of a smoothing length. What has come from farther inside
+            // all the same stands beyond the wall when the next step measures its distance, and is found at the end of that.
+            .filter(|&i| self.columns.inverse_distance[i].widen() * spacing > NEAR)
             .filter_map(|i| {
                 let moved = self.moving.as_ref().map_or(DVec3::ZERO, |m| m.displacement[i]);
                 let (phi, gradient) = self.distance(self.state.position[i] - moved);

@@ -1,6 +1,7 @@
 //! Viscous acceleration, and the sums with corrected gradients that read the same neighbours.
 
-use crate::fluid::{Fluid, Frozen, numbered};
+use crate::fluid::{Fluid, numbered};
+use crate::frozen::{Frozen, distance_of, pack, widen};
 use crate::law::near_wall::{self, NearWall};
 use crate::law::offset::Offset;
 use crate::law::thinning::{self, ThinningViscosity};
@@ -9,7 +10,7 @@ use crate::rheology::shear_rate;
 use crate::summation::pack_sym;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, sweep};
+use vaso_kernels::{CHUNK, Gather, Real, Store, Sym3, run_on, sweep, sweep_some};
 
 impl<R: Real> Fluid<R> {
     /// Finds the viscous acceleration, the own-pressure and support sums, and the velocity gradient; needs
@@ -19,13 +20,12 @@ impl<R: Real> Fluid<R> {
         self.near_wall();
         self.note_for_wall();
         // The wall law wants the inverse distance where the other laws want the pressure.
-        let frozen = &self.frozen;
         self.current
             .as_mut_slice()
             .par_iter_mut()
-            .zip(frozen)
+            .zip(&self.columns.inverse_distance)
             .with_min_len(1024)
-            .for_each(|(record, frozen)| record[7] = R::pack(frozen.inverse_distance));
+            .for_each(|(record, inverse)| record[7] = *inverse);
 
         let gradient = self.kernel.gradient_scale();
         let support = self.kernel.support();
@@ -47,46 +47,58 @@ impl<R: Real> Fluid<R> {
             own_second: Some(second),
             other_second: None,
         };
+        let columns = &mut self.columns;
         (
             self.frozen.par_chunks_mut(CHUNK),
+            columns.acceleration.par_chunks_mut(CHUNK),
+            columns.support.par_chunks_mut(CHUNK),
+            columns.inverse_distance.par_chunks(CHUNK),
             self.slope.par_chunks_mut(CHUNK),
             self.rows.chunks(),
             wall.fluid_rows.chunks(),
         )
             .into_par_iter()
             .enumerate()
-            .for_each(|(c, (frozen, slopes, row, wall_row))| {
+            .for_each(|(c, (frozen, acceleration, supports, inverse, slopes, row, wall_row))| {
                 let mut fluid = [[0.0; FLUID_SUMS]; CHUNK];
                 let mut walls = [[0.0; WALL_SUMS]; CHUNK];
                 sweep(isa, &FluidViscosity, &fluid_gather, numbered(row, c), Store::None, &mut fluid);
                 if !wall_row.has_no_pairs() {
                     sweep(isa, &WallViscosity, &wall_gather, numbered(wall_row, c), Store::None, &mut walls);
                 }
-                for k in 0..frozen.len() {
-                    let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
-                    let rho = rho0 + density_change[c * CHUNK + k];
-                    let depths = w[12] * frozen.wall_distance() + w[13];
-                    let bend = slopes[k].x_axis;
-                    let wall = DVec3::new(w[0], w[1], w[2]) - depths * bend;
-                    let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
-                    let slope = velocity_gradient(&raw, frozen);
-                    // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends. Near caps
-                    // it is the drag of the neighbours left that keeps particles together.
-                    let lean = support * DVec3::new(f[15] + w[14], f[16] + w[15], f[17] + w[16]);
-                    let is_inner = zone_of[c * CHUNK + k] == 0;
-                    let wall = if is_inner { wall - slope.transpose() * lean } else { wall };
-                    // With a law of the shear rate, what fluid pairs add is found anew once it is known.
-                    frozen.acceleration = match rheology {
-                        None => -gradient * mu / (support * rho) * (DVec3::new(f[3], f[4], f[5]) + wall),
-                        Some(_) => -gradient / (support * rho) * wall,
-                    };
-                    let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
-                    set_gradient_sums(frozen, neighbours);
-                    slopes[k] = slope;
-                    if is_inner {
-                        frozen.false_convergence = frozen.along_wall * false_convergence(&slope, frozen);
-                    }
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for k in 0..frozen.len() {
+                            let (f, w, frozen) = (&fluid[k], &walls[k], &mut frozen[k]);
+                            let rho = rho0 + density_change[c * CHUNK + k];
+                            let depths = w[12] * distance_of(inverse[k]) + w[13];
+                            let bend = slopes[k].x_axis;
+                            let wall = DVec3::new(w[0], w[1], w[2]) - depths * bend;
+                            let raw: [f64; 9] = std::array::from_fn(|q| gradient * (f[6 + q] + w[3 + q]));
+                            let slope = velocity_gradient(&raw, frozen);
+                            // Unevenly spaced neighbours would take a velocity that changes linearly for one that bends. Near caps
+                            // it is the drag of the neighbours left that keeps particles together.
+                            let lean = support * DVec3::new(f[15] + w[14], f[16] + w[15], f[17] + w[16]);
+                            let is_inner = zone_of[c * CHUNK + k] == 0;
+                            let wall = if is_inner { wall - slope.transpose() * lean } else { wall };
+                            // With a law of the shear rate, what fluid pairs add is found anew once it is known.
+                            acceleration[k] = pack(match rheology {
+                                None => {
+                                    -gradient * mu / (support * rho) * (DVec3::new(f[3], f[4], f[5]) + wall)
+                                }
+                                Some(_) => -gradient / (support * rho) * wall,
+                            });
+                            let neighbours = -gradient * DVec3::new(f[0], f[1], f[2]);
+                            supports[k] = pack(frozen.set_own_pressure(neighbours));
+                            slopes[k] = slope;
+                            if is_inner {
+                                frozen.set_false_convergence(false_convergence(&slope, frozen));
+                            }
+                        }
+                    },
+                );
             });
     }
 
@@ -96,13 +108,13 @@ impl<R: Real> Fluid<R> {
         let support = self.kernel.support();
         self.slope.clear();
         self.slope.resize(self.state.len(), DMat3::ZERO);
-        let frozen = &self.frozen;
+        let columns = &self.columns;
         self.current
             .as_mut_slice()
             .par_iter_mut()
-            .zip(frozen)
+            .enumerate()
             .with_min_len(1024)
-            .for_each(|(record, frozen)| record[7] = R::pack(frozen.wall_distance() / support));
+            .for_each(|(i, record)| record[7] = R::pack(columns.wall_distance(i) / support));
         let (isa, current, velocity) = (self.isa, &self.current, &self.state.velocity);
         let of_wall = self.moving.as_ref().map(|m| m.velocity.as_slice());
         let gather =
@@ -113,10 +125,11 @@ impl<R: Real> Fluid<R> {
             .filter(|(_, (_, _, wall_row))| !wall_row.has_no_pairs())
             .for_each(|(c, (bend, row, wall_row))| {
                 let mut sums = [[0.0; near_wall::SUMS]; CHUNK];
-                sweep(isa, &NearWall, &gather, numbered(row, c), Store::None, &mut sums);
+                let near = |k| !wall_row.is_row_empty(k);
+                sweep_some(isa, &NearWall, &gather, numbered(row, c), Store::None, near, &mut sums);
                 for k in (0..bend.len()).filter(|&k| !wall_row.is_row_empty(k)) {
                     let i = c * CHUNK + k;
-                    let s = frozen[i].wall_distance() / support;
+                    let s = columns.wall_distance(i) / support;
                     let volume = current.as_slice()[i][3].widen();
                     near_wall::add_own(&mut sums[k], s, volume, velocity[i].to_array());
                     let wall = of_wall.map_or([0.0; 3], |v| v[i].to_array());
@@ -170,34 +183,28 @@ impl<R: Real> Fluid<R> {
             own_second: Some(&self.second),
             other_second: Some(&self.second),
         };
-        (self.frozen.par_chunks_mut(CHUNK), self.rows.chunks()).into_par_iter().enumerate().for_each(
-            |(c, (frozen, row))| {
+        (self.columns.acceleration.par_chunks_mut(CHUNK), self.rows.chunks())
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(c, (acceleration, row))| {
                 let mut sums = [[0.0; thinning::SUMS]; CHUNK];
                 sweep(isa, &ThinningViscosity, &gather, numbered(row, c), Store::None, &mut sums);
-                for (k, frozen) in frozen.iter_mut().enumerate() {
+                for (k, acceleration) in acceleration.iter_mut().enumerate() {
                     let i = c * CHUNK + k;
                     let eta = viscosity(&slope[i]);
                     let rho = rho0 + density_change[i];
                     let drag = -gradient / (support * rho) * DVec3::from_array(sums[k]);
-                    frozen.acceleration = eta * frozen.acceleration + drag;
+                    *acceleration = pack(eta * widen(*acceleration) + drag);
                 }
-            },
-        );
+            });
     }
 }
 
-/// `k = K' + B_i (g_fluid + g_wall)` with `K' = sum V B_j grad W + B_i g_wall`, and what the own pressure multiplies.
-fn set_gradient_sums(frozen: &mut Frozen, neighbours: DVec3) {
-    let b = frozen.correction;
-    let own = b.mul(frozen.fluid_gradient + frozen.wall_gradient);
-    let mirrored = neighbours + b.mul(frozen.wall_gradient);
-    frozen.support = mirrored + own;
-    frozen.own_pressure = if frozen.takes_pressure { mirrored } else { -own };
-}
-
 /// Corrected velocity gradient \[1/s\], column by column those of the components; `raw` is `sum V (v_j - v_i) (x) grad W`.
-fn velocity_gradient(raw: &[f64; 9], frozen: &Frozen) -> DMat3 {
-    let row = |r: usize| frozen.correction.mul(DVec3::new(raw[3 * r], raw[3 * r + 1], raw[3 * r + 2]));
+#[inline(always)]
+fn velocity_gradient<R: Real>(raw: &[f64; 9], frozen: &Frozen<R>) -> DMat3 {
+    let correction = frozen.correction();
+    let row = |r: usize| correction.mul(DVec3::new(raw[3 * r], raw[3 * r + 1], raw[3 * r + 2]));
     DMat3::from_cols(row(0), row(1), row(2))
 }
 
@@ -211,11 +218,12 @@ pub(crate) fn scaled_strain(g: &DMat3, scale: f64) -> [f64; 6] {
 ///
 /// Within reach of the wall, that is what shears along it and in its plane: a flow towards the wall converges among the fluid,
 /// and the sum over the wall takes it back.
-fn false_convergence(g: &DMat3, frozen: &Frozen) -> f64 {
-    let Sym3(m) = &frozen.fluid_moment;
+#[inline(always)]
+fn false_convergence<R: Real>(g: &DMat3, frozen: &Frozen<R>) -> f64 {
+    let Sym3(m) = &frozen.fluid_moment();
     let mut d = Sym3(scaled_strain(g, 1.0));
     let trace = d.0[0] + d.0[1] + d.0[2];
-    let (mut isotropic, n) = (trace / 3.0, frozen.wall_normal);
+    let (mut isotropic, n) = (trace / 3.0, frozen.wall_normal());
     if n != DVec3::ZERO {
         let to_wall = n.dot(d.mul(n));
         isotropic = 0.5 * (trace - to_wall);

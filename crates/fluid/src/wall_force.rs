@@ -1,8 +1,8 @@
 //! Forces on a wall that moves: those on the fluid, pair by pair, with the other sign.
 
 use crate::fluid::{Fluid, numbered};
-use crate::law::moving::{BendOnWall, DragOnWall, LeanOnWall, PressureOnWall};
-use crate::moving::{Moving, OUT_OF_REACH, closing_pressure};
+use crate::law::moving::{BendOnWall, DragOnWall, LeanOnWall};
+use crate::moving::{Moving, OUT_OF_REACH};
 use crate::rheology::shear_rate;
 use crate::viscosity::scaled_strain;
 use glam::DVec3;
@@ -34,41 +34,41 @@ impl<R: Real> Fluid<R> {
         moving.correction.fill(|i| second[i]);
     }
 
-    /// Writes what the pressure and its dissipation do to each particle of the wall, in the order of its view, with the forces of the last
-    /// [`Self::kick`]. Call it before [`Self::continuity`].
-    pub fn pressure_on_wall(&mut self, contact: &mut [Contact]) {
-        let Some(mut moving) = self.moving.take() else { return };
+    /// Shows the wall the pressure of the fluid, and that of its dissipation at the wall.
+    pub(crate) fn show_pressure(&self, moving: &mut Moving<R>) {
         let numbers = &self.numbers;
-        let (state, frozen, current) = (&self.state, &self.frozen, self.current.as_slice());
-        let near = &moving.velocity;
-        moving.seen.resize(state.len());
-        moving.seen.fill(|i| {
-            let mut record = current[i];
+        let (state, frozen, current) = (&self.state, &self.for_momentum, self.current.as_slice());
+        let Moving { seen, velocity: near, .. } = moving;
+        seen.resize(state.len());
+        seen.fill(|i| {
             let change = state.density_change[i];
-            // The kick has changed the velocity, not the record.
-            let before = DVec3::new(record[4].widen(), record[5].widen(), record[6].widen());
-            record[3] = R::pack(state.mass[i] / (numbers.rest_density + change));
-            record[4] = R::pack(closing_pressure(before - near[i], &frozen[i], numbers));
-            record[7] = R::pack(numbers.pressure(change));
-            record
+            let volume = state.mass[i] / (numbers.rest_density + change);
+            let closing = frozen[i].closing_pressure(state.velocity[i] - near[i], numbers);
+            let ([x, y, z, ..], zero) = (current[i], R::default());
+            [x, y, z, R::pack(volume), R::pack(closing), zero, zero, R::pack(numbers.pressure(change))]
         });
+    }
+
+    /// Writes what the pressure and its dissipation do to each particle of the wall, in the order of its view, with the forces of the last
+    /// [`Self::kick`]: they were found with [`Self::wall_pressure`] before it.
+    pub fn pressure_on_wall(&mut self, contact: &mut [Contact]) {
+        let Some(moving) = &self.moving else { return };
         let gradient = self.kernel.gradient_scale();
-        let mut sums = std::mem::take(&mut moving.contact);
-        self.gather_on_wall(&PressureOnWall, &self.wall.dynamic, &moving, &mut sums);
         let records = self.wall.dynamic.as_slice();
         (contact, &moving.place, &moving.lever).into_par_iter().with_min_len(1024).for_each(
             |(contact, &place, lever)| {
                 *contact = Contact::default();
                 if place != OUT_OF_REACH {
-                    let (record, sum) = (&records[place as usize], &sums[place as usize]);
+                    let (record, sum) = (&records[place as usize], &moving.contact[place as usize]);
                     let scale = gradient * record[3].widen();
                     let of = |k: usize| scale * DVec3::new(sum[k], sum[k + 1], sum[k + 2]);
-                    *contact = Contact { force: of(0), area: *lever * of(3), level: *lever * of(6) };
+                    let near = sum[0];
+                    let (area, beyond) = (of(5), of(8));
+                    let force = (record[7].widen() - near) * area - beyond + of(11);
+                    *contact = Contact { force, area: *lever * area, level: *lever * (near * area + beyond) };
                 }
             },
         );
-        moving.contact = sums;
-        self.moving = Some(moving);
     }
 
     /// Writes the viscous force on each particle of the wall \[N\], in the order of its view: that of [`Self::viscosity`] on the
@@ -76,7 +76,7 @@ impl<R: Real> Fluid<R> {
     pub fn viscous_force_on_wall(&mut self, force: &mut [DVec3]) {
         let Some(mut moving) = self.moving.take() else { return };
         let support = self.kernel.support();
-        let (state, frozen, current) = (&self.state, &self.frozen, self.current.as_slice());
+        let (state, columns, current) = (&self.state, &self.columns, self.current.as_slice());
         let (numbers, slope, zone_of) = (&self.numbers, &self.slope, &self.zone_of);
         let viscous_volume = |i: usize| {
             let mu = numbers
@@ -89,12 +89,12 @@ impl<R: Real> Fluid<R> {
         moving.seen.fill(|i| {
             let mut record = current[i];
             record[3] = R::pack(viscous_volume(i));
-            record[7] = R::pack(frozen[i].inverse_distance);
+            record[7] = columns.inverse_distance[i];
             record
         });
         let mut drag = self.vectors_on_wall(&DragOnWall, own, &moving);
         let bend = &moving.bend;
-        show(&mut moving.seen, |i| (bend[i], frozen[i].wall_distance()));
+        show(&mut moving.seen, |i| (bend[i], columns.wall_distance(i)));
         let bent = self.vectors_on_wall(&BendOnWall, own, &moving);
         drag.iter_mut().zip(&bent).for_each(|(drag, bent)| *drag -= *bent);
         for axis in 0..3 {
@@ -119,7 +119,7 @@ impl<R: Real> Fluid<R> {
     }
 
     /// Writes the sums of a law over the rows of the wall, among the fluid as it is seen.
-    fn gather_on_wall<const N: usize>(
+    pub(crate) fn gather_on_wall<const N: usize>(
         &self,
         law: &impl PairLaw<R, N>,
         own: &Records<R>,

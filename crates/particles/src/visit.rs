@@ -2,6 +2,7 @@
 
 use crate::column::Column;
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// A set of columns of equal length.
 ///
@@ -53,7 +54,7 @@ pub fn reorder(body: &mut impl Columns, order: &[u32]) {
     impl Reorder<'_> {
         fn apply<T: Copy + Send + Sync>(&self, column: &mut Column<T>) {
             let data = column.vec_mut();
-            let sorted = self.0.iter().map(|&old| data[old as usize]).collect();
+            let sorted = self.0.par_iter().with_min_len(4096).map(|&old| data[old as usize]).collect();
             *data = sorted;
         }
     }

@@ -80,35 +80,19 @@ pub fn surface_displacement(sums: &[f64; DISPLACEMENT_SUMS]) -> [f64; 3] {
     })
 }
 
-/// Wall among the fluid, as [`WallPressure`](super::wall_pressure::WallPressure) with the moment that an acceleration needs: sums
-/// `[0]` of `V W p_f`, `[1]` of `V W` and `[2..5]` of `V W d`.
-pub struct AcceleratedWallPressure;
+/// Number of sums of [`WallContact`].
+pub const CONTACT_SUMS: usize = 14;
 
-impl<R: Real> PairLaw<R, 5> for AcceleratedWallPressure {
-    type Constants<L: Lanes<Elem = R>> = ();
-
-    fn constants<L: Lanes<Elem = R>>(&self) {}
-
-    #[inline(always)]
-    fn pair<L: Lanes<Elem = R>>((): &(), _own: &Own<L>, p: &Pair<L>, sums: &mut [L; 5]) {
-        let weight = kernel_weight(p.u, p.volume);
-        sums[0] = weight.fma(p.scalar, sums[0]);
-        sums[1] = sums[1] + weight;
-        add_scaled(sums, 2, weight, p.d);
-    }
-}
-
-/// Number of sums of [`PressureOnWall`].
-pub const CONTACT_SUMS: usize = 9;
-
-/// Wall among the fluid: what [`WallPressureForce`](super::pressure::WallPressureForce) and the own pressure of the particles do
-/// to them, with the other sign, and what the faces of the wall need. The scalar of the wall is its pressure, that of the fluid its
-/// pressure and the first of its vector that of the dissipation; the second record is the correction matrix of the fluid.
+/// Wall among the fluid: its pressure, as [`WallPressure`](super::wall_pressure::WallPressure) with the moment that an acceleration needs,
+/// and what [`WallPressureForce`](super::pressure::WallPressureForce) and the own pressure of the particles do to them, with the other sign.
+/// The scalar of the wall is a pressure `p_0` near that of the fluid, which keeps differences exact; that of the fluid is its pressure and the
+/// first of its vector that of the dissipation `q`; the second record is the correction matrix of the fluid.
 ///
-/// With `w = V_i u^3 B_i d` the sums are of `(p_a - p_i + q_i) w` in `[0..3]`, of `w` in `[3..6]` and of `p_i w` in `[6..9]`.
-pub struct PressureOnWall;
+/// With `w = V_i u^3 B_i d` the sums are `[0]` of `V W (p_i - p_0)`, `[1]` of `V W`, `[2..5]` of `V W d`, `[5..8]` of `w`, `[8..11]` of
+/// `(p_i - p_0) w` and `[11..14]` of `q_i w`.
+pub struct WallContact;
 
-impl<R: Real> PairLaw<R, CONTACT_SUMS> for PressureOnWall {
+impl<R: Real> PairLaw<R, CONTACT_SUMS> for WallContact {
     type Constants<L: Lanes<Elem = R>> = ();
     const SECOND: bool = true;
     const SECOND_OWN: bool = false;
@@ -117,11 +101,16 @@ impl<R: Real> PairLaw<R, CONTACT_SUMS> for PressureOnWall {
 
     #[inline(always)]
     fn pair<L: Lanes<Elem = R>>((): &(), own: &Own<L>, p: &Pair<L>, sums: &mut [L; CONTACT_SUMS]) {
+        let pressure = p.scalar - own.scalar;
+        let weight = kernel_weight(p.u, p.volume);
+        sums[0] = weight.fma(pressure, sums[0]);
+        sums[1] = sums[1] + weight;
+        add_scaled(sums, 2, weight, p.d);
         let weight = gradient_weight(p.u, p.volume);
         let along = sym_mul(&p.second, p.d);
-        add_scaled(sums, 0, weight * (own.scalar - p.scalar + p.velocity[0]), along);
-        add_scaled(sums, 3, weight, along);
-        add_scaled(sums, 6, weight * p.scalar, along);
+        add_scaled(sums, 5, weight, along);
+        add_scaled(sums, 8, weight * pressure, along);
+        add_scaled(sums, 11, weight * p.velocity[0], along);
     }
 }
 
