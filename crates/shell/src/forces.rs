@@ -13,7 +13,8 @@ use crate::state::ShellState;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use vaso_kernels::{
-    BLOCK, BlockColumn, CHUNK, FIELDS, Gather, Isa, Real, Records, Store, sweep, sweep_links, sweep_points,
+    BLOCK, BlockColumn, CHUNK, FIELDS, Gather, Isa, Real, Records, Store, run_on, sweep, sweep_links,
+    sweep_points,
 };
 
 /// Working memory of a shell.
@@ -113,17 +114,34 @@ impl<R: Real> Forces<R> {
     }
 
     fn pack(&mut self, state: &ShellState) {
-        let in_supports = 1.0 / self.reference.frame.support();
-        let records = (self.kinematic.as_mut_slice(), self.jump.as_mut_slice());
-        records.into_par_iter().enumerate().with_min_len(1024).for_each(|(i, (kinematic, jump))| {
-            let u = (state.displacement[i] * in_supports).to_array();
-            let n = (state.director[i] - state.reference_director[i]).to_array();
-            for k in 0..3 {
-                // Wraps around far from the reference position: only differences are read.
-                kinematic[k] = R::coordinate((u[k] * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u[k]);
-                kinematic[3 + k] = R::coordinate((n[k] * (1.0 / DIRECTOR_UNIT)) as i64 as i32, n[k]);
-            }
-            jump[4..7].copy_from_slice(&kinematic[..3]);
+        let (isa, in_supports) = (self.isa, 1.0 / self.reference.frame.support());
+        let columns = (
+            self.kinematic.as_mut_slice().par_chunks_mut(CHUNK),
+            self.jump.as_mut_slice().par_chunks_mut(CHUNK),
+            state.displacement.par_chunks(CHUNK),
+            state.director.par_chunks(CHUNK),
+            state.reference_director.par_chunks(CHUNK),
+        );
+        columns.into_par_iter().for_each(|(kinematic, jump, displacement, director, reference)| {
+            let columns = kinematic.iter_mut().zip(jump).zip(displacement).zip(director).zip(reference);
+            run_on(
+                isa,
+                #[inline(always)]
+                || {
+                    for ((((kinematic, jump), displacement), director), reference) in columns {
+                        let u = (*displacement * in_supports).to_array();
+                        let n = (*director - *reference).to_array();
+                        for k in 0..3 {
+                            // Wraps around far from the reference position: only differences are read.
+                            kinematic[k] =
+                                R::coordinate((u[k] * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u[k]);
+                            kinematic[3 + k] =
+                                R::coordinate((n[k] * (1.0 / DIRECTOR_UNIT)) as i64 as i32, n[k]);
+                        }
+                        jump[4..7].copy_from_slice(&kinematic[..3]);
+                    }
+                },
+            );
         });
     }
 
@@ -142,24 +160,30 @@ impl<R: Real> Forces<R> {
                 let mut sums = [[0.0; 12]; CHUNK];
                 let stored = &reference.forward.chunks()[c];
                 sweep_links(isa, &Gradient, (kinematic, None), (row, c * CHUNK), stored, &mut sums);
-                for (k, motion) in motion.iter_mut().enumerate() {
-                    let i = c * CHUNK + k;
-                    let (s, base) = (&sums[k], &reference.base[i]);
-                    // The sums are of own minus neighbour.
-                    motion.u = [0, 1].map(|a| -support * DVec3::new(s[a], s[2 + a], s[4 + a]));
-                    motion.n = [0, 1].map(|a| -DVec3::new(s[6 + a], s[8 + a], s[10 + a]));
-                    let turn = state.director[i] - base.director;
-                    let dual = &base.dual;
-                    let column = |v: [f64; 3]| v[0] * motion.u[0] + v[1] * motion.u[1] + v[2] * turn;
-                    gradient[k] = DMat3::from_cols(
-                        column([dual[0].x, dual[1].x, dual[2].x]),
-                        column([dual[0].y, dual[1].y, dual[2].y]),
-                        column([dual[0].z, dual[1].z, dual[2].z]),
-                    );
-                    let [x, y, z] = [gradient[k].x_axis, gradient[k].y_axis, gradient[k].z_axis];
-                    matrix[k] = [x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z].map(R::pack);
-                    jump[k][7] = R::pack(z.z);
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for (k, motion) in motion.iter_mut().enumerate() {
+                            let i = c * CHUNK + k;
+                            let (s, base) = (&sums[k], &reference.base[i]);
+                            // The sums are of own minus neighbour.
+                            motion.u = [0, 1].map(|a| -support * DVec3::new(s[a], s[2 + a], s[4 + a]));
+                            motion.n = [0, 1].map(|a| -DVec3::new(s[6 + a], s[8 + a], s[10 + a]));
+                            let turn = state.director[i] - base.director;
+                            let dual = &base.dual;
+                            let column = |v: [f64; 3]| v[0] * motion.u[0] + v[1] * motion.u[1] + v[2] * turn;
+                            gradient[k] = DMat3::from_cols(
+                                column([dual[0].x, dual[1].x, dual[2].x]),
+                                column([dual[0].y, dual[1].y, dual[2].y]),
+                                column([dual[0].z, dual[1].z, dual[2].z]),
+                            );
+                            let [x, y, z] = [gradient[k].x_axis, gradient[k].y_axis, gradient[k].z_axis];
+                            matrix[k] = [x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z].map(R::pack);
+                            jump[k][7] = R::pack(z.z);
+                        }
+                    },
+                );
             });
     }
 
@@ -212,15 +236,25 @@ impl<R: Real> Forces<R> {
                 let mut power = 0.0;
                 for b in 0..own.len().div_ceil(BLOCK) {
                     let (first, n) = (b * BLOCK, BLOCK.min(own.len() - b * BLOCK));
-                    for k in 0..n {
-                        let i = c * CHUNK + first + k;
-                        let determinant = (DMat3::IDENTITY + gradient[i]).determinant();
-                        if determinant <= 0.0 || determinant.is_nan() {
-                            return Err(i);
-                        }
-                        // Lengths in supports: their product brings one support back, the weight the rest.
-                        let twist = std::array::from_fn(|a| -0.5 * modulus * sums[first + k][3 + a]);
-                        lanes::show(&mut read, k, &motion[i], state.director[i], twist);
+                    let mut inverted = None;
+                    run_on(
+                        isa,
+                        #[inline(always)]
+                        || {
+                            for k in 0..n {
+                                let i = c * CHUNK + first + k;
+                                let determinant = (DMat3::IDENTITY + gradient[i]).determinant();
+                                if determinant <= 0.0 || determinant.is_nan() {
+                                    inverted.get_or_insert(i);
+                                }
+                                // Lengths in supports: their product brings one support back, the weight the rest.
+                                let twist = std::array::from_fn(|a| -0.5 * modulus * sums[first + k][3 + a]);
+                                lanes::show(&mut read, k, &motion[i], state.director[i], twist);
+                            }
+                        },
+                    );
+                    if let Some(i) = inverted {
+                        return Err(i);
                     }
                     let strain = strains.get_mut(b).filter(|_| damping > 0.0);
                     if let Some(strain) = &strain {
@@ -231,17 +265,23 @@ impl<R: Real> Forces<R> {
                     if let Some(strain) = strain {
                         strain.copy_from_slice(lanes::strains(&found));
                     }
-                    for k in 0..n {
-                        let (i, at) = (c * CHUNK + first + k, first + k);
-                        let (t, m, q, damped) = lanes::found(&found, k);
-                        power += state.area[i] * damped;
-                        let sums = &sums[at];
-                        let direct = (-modulus / support) * DVec3::new(sums[0], sums[1], sums[2]);
-                        let [w0, w1] = reference.own[i];
-                        own[at] = [w0 * t[0] + w1 * t[1] + direct, w0 * m[0] + w1 * m[1] - q];
-                        force[at] = packed(&t);
-                        moment[at] = packed(&m);
-                    }
+                    run_on(
+                        isa,
+                        #[inline(always)]
+                        || {
+                            for k in 0..n {
+                                let (i, at) = (c * CHUNK + first + k, first + k);
+                                let (t, m, q, damped) = lanes::found(&found, k);
+                                power += state.area[i] * damped;
+                                let sums = &sums[at];
+                                let direct = (-modulus / support) * DVec3::new(sums[0], sums[1], sums[2]);
+                                let [w0, w1] = reference.own[i];
+                                own[at] = [w0 * t[0] + w1 * t[1] + direct, w0 * m[0] + w1 * m[1] - q];
+                                force[at] = packed(&t);
+                                moment[at] = packed(&m);
+                            }
+                        },
+                    );
                 }
                 Ok(power)
             })
@@ -273,13 +313,19 @@ impl<R: Real> Forces<R> {
                 let mut sums = [[0.0; 6]; CHUNK];
                 let stored = &reference.backward.chunks()[c];
                 sweep_links(isa, &Divergence, records, (row, c * CHUNK), stored, &mut sums);
-                for (k, (a, turn)) in acceleration.iter_mut().zip(turning).enumerate() {
-                    let i = c * CHUNK + k;
-                    let s = &sums[k];
-                    *a = (area[i] / mass[i]) * (own[i][0] + DVec3::new(s[0], s[1], s[2]));
-                    let couple = own[i][1] + DVec3::new(s[3], s[4], s[5]);
-                    *turn = (area[i] / inertia[i]) * across(couple, director[i]);
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for (k, (a, turn)) in acceleration.iter_mut().zip(turning).enumerate() {
+                            let i = c * CHUNK + k;
+                            let s = &sums[k];
+                            *a = (area[i] / mass[i]) * (own[i][0] + DVec3::new(s[0], s[1], s[2]));
+                            let couple = own[i][1] + DVec3::new(s[3], s[4], s[5]);
+                            *turn = (area[i] / inertia[i]) * across(couple, director[i]);
+                        }
+                    },
+                );
             });
     }
 

@@ -7,7 +7,7 @@ use crate::shell::Shell;
 use crate::support::numbered;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real};
+use vaso_kernels::{CHUNK, Real, run_on};
 use vaso_particles::{WallMotion, WallView};
 
 /// `sin(x) / x` and `cos(x)` of the square of `x`. Directors turn by little a step, where series are exact and cheap.
@@ -122,19 +122,28 @@ impl<R: Real> Shell<R> {
 
     /// Moves positions along velocities, and directors along great circles.
     fn drift(&mut self, dt: f64) {
-        let state = &mut self.state;
+        let (isa, state) = (self.forces.isa, &mut self.state);
         let columns = (
-            &mut state.displacement[..],
-            &state.velocity[..],
-            &mut state.director[..],
-            &mut state.director_velocity[..],
+            state.displacement.par_chunks_mut(CHUNK),
+            state.velocity.par_chunks(CHUNK),
+            state.director.par_chunks_mut(CHUNK),
+            state.director_velocity.par_chunks_mut(CHUNK),
         );
-        columns.into_par_iter().with_min_len(1024).for_each(|(u, v, n, w)| {
-            *u += dt * *v;
-            let (sinc, cosine) = sinc_cos(w.length_squared() * dt * dt);
-            let (before, rate) = (*n, *w);
-            *n = (cosine * before + (sinc * dt) * rate).normalize();
-            *w = cosine * rate - (sinc * dt * rate.length_squared()) * before;
+        columns.into_par_iter().for_each(|(displacement, velocity, director, turn)| {
+            let columns = displacement.iter_mut().zip(velocity).zip(director).zip(turn);
+            run_on(
+                isa,
+                #[inline(always)]
+                || {
+                    for (((u, v), n), w) in columns {
+                        *u += dt * *v;
+                        let (sinc, cosine) = sinc_cos(w.length_squared() * dt * dt);
+                        let (before, rate) = (*n, *w);
+                        *n = (cosine * before + (sinc * dt) * rate).normalize();
+                        *w = cosine * rate - (sinc * dt * rate.length_squared()) * before;
+                    }
+                },
+            );
         });
     }
 
@@ -147,7 +156,7 @@ impl<R: Real> Shell<R> {
     }
 
     fn kick(&mut self, dt: f64) {
-        let (loads, supports) = (&self.loads, &self.supports);
+        let (isa, loads, supports) = (self.forces.isa, &self.loads, &self.supports);
         let state = &mut self.state;
         let (acceleration, angular) = (&state.acceleration, &state.director_acceleration);
         let (support, director) = (&state.support, &state.director);
@@ -159,16 +168,22 @@ impl<R: Real> Shell<R> {
             .enumerate()
             .map(|(c, (velocity, turn))| {
                 let mut work = 0.0;
-                for (k, (v, w)) in velocity.iter_mut().zip(turn).enumerate() {
-                    let i = c * CHUNK + k;
-                    let held = numbered(support[i], supports);
-                    let (external, couple) = (loads.on(i), loads.on_director(i));
-                    let new = held.displacement.of(*v + dt * (acceleration[i] + external));
-                    let next = *w + dt * (angular[i] + across(couple, director[i]));
-                    let next = turning(next, held.director, director[i]);
-                    work += mass[i] * external.dot(*v + new) + inertia[i] * couple.dot(*w + next);
-                    (*v, *w) = (new, next);
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for (k, (v, w)) in velocity.iter_mut().zip(turn).enumerate() {
+                            let i = c * CHUNK + k;
+                            let held = numbered(support[i], supports);
+                            let (external, couple) = (loads.on(i), loads.on_director(i));
+                            let new = held.displacement.of(*v + dt * (acceleration[i] + external));
+                            let next = *w + dt * (angular[i] + across(couple, director[i]));
+                            let next = turning(next, held.director, director[i]);
+                            work += mass[i] * external.dot(*v + new) + inertia[i] * couple.dot(*w + next);
+                            (*v, *w) = (new, next);
+                        }
+                    },
+                );
                 0.5 * dt * work
             })
             .collect();

@@ -42,12 +42,14 @@ pub(crate) fn fixed_columns(layers: usize) -> usize {
     LAYERS + layers * LAYER
 }
 
+#[inline(always)]
 fn put(columns: &mut [BlockColumn], first: usize, k: usize, v: DVec3) {
     for (a, x) in v.to_array().into_iter().enumerate() {
         columns[first + a][k] = x;
     }
 }
 
+#[inline(always)]
 fn get(columns: &[BlockColumn], first: usize, k: usize) -> DVec3 {
     DVec3::new(columns[first][k], columns[first + 1][k], columns[first + 2][k])
 }
@@ -79,6 +81,7 @@ pub(crate) fn fix(
 }
 
 /// Writes what is read of particle `k`: its motion, its director, and the sums of the hourglass control times their factor.
+#[inline(always)]
 pub(crate) fn show(
     columns: &mut [BlockColumn],
     k: usize,
@@ -108,6 +111,7 @@ pub(crate) fn strains(columns: &[BlockColumn]) -> &[BlockColumn] {
 
 /// What was written of particle `k`: derivatives by the gradients of position and director, by the director, and the power of the damping by area
 /// \[W/m^2\].
+#[inline(always)]
 pub(crate) fn found(columns: &[BlockColumn], k: usize) -> ([DVec3; 2], [DVec3; 2], DVec3, f64) {
     let pair = |first: usize| [get(columns, first, k), get(columns, first + 3, k)];
     (pair(T), pair(M), get(columns, Q, k), columns[POWER][k])
