@@ -4,6 +4,7 @@ mod energy;
 pub mod error;
 mod face;
 mod formulation;
+mod lanes;
 pub mod law;
 mod load;
 mod lumen;

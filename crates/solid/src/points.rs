@@ -1,9 +1,14 @@
 //! What is done at each particle between the two sums over its pairs: strain, stress, and what the force reads of both.
 
+use crate::lanes::{self, Stress};
 use crate::mat3::{from_rows, full, pack};
 use crate::material::{Elastic, Fibres};
 use glam::{DMat3, DVec3};
-use vaso_kernels::{FIELDS, Real, Sym3};
+use std::ops::Range;
+use vaso_kernels::{BLOCK, FIELDS, Isa, Real, Sym3, sweep_points};
+
+/// Determinants for which the stress can be found in lanes.
+const PLAIN: Range<f64> = 0.6..1.7;
 
 /// Constants of a pass.
 pub(crate) struct Constants {
@@ -41,16 +46,54 @@ pub(crate) struct Points<'a, R, E> {
 impl<R: Real, E: Elastic> Points<'_, R, E> {
     /// Does all of it by the `sums` of the pairs; with damping the last three of each are its own. Returns the power taken \[W\], or the
     /// place in the chunk of a particle that is turned inside out.
-    pub(crate) fn pass<const K: usize>(mut self, sums: &[[f64; K]]) -> Result<f64, usize> {
+    pub(crate) fn pass<const K: usize>(mut self, isa: Isa, sums: &[[f64; K]]) -> Result<f64, usize> {
+        let n = self.gradient.len();
+        let in_lanes = E::IN_LANES && self.constants.viscosity == 0.0;
         let mut power = 0.0;
-        for (k, sums) in sums.iter().enumerate().take(self.gradient.len()) {
-            power += self.strain(k, sums).ok_or(k)?;
-            if let Some(damping) = self.damping.get_mut(k) {
-                *damping = self.constants.damping_scale * DVec3::new(sums[9], sums[10], sums[11]);
-                power -= self.mass[k] * damping.dot(self.velocity[k]);
+        for first in (0..n).step_by(BLOCK) {
+            let block = first..n.min(first + BLOCK);
+            if !(in_lanes && self.block(isa, block.clone(), sums)) {
+                for k in block {
+                    power += self.strain(k, &sums[k]).ok_or(k)?;
+                }
             }
         }
+        for ((damping, sums), (mass, v)) in
+            self.damping.iter_mut().zip(sums).zip(self.mass.iter().zip(self.velocity))
+        {
+            *damping = self.constants.damping_scale * DVec3::new(sums[9], sums[10], sums[11]);
+            power -= mass * damping.dot(*v);
+        }
         Ok(power)
+    }
+
+    /// [`Self::strain`] of a block at once; `false`, with nothing done, where one is strained so much that it needs care.
+    fn block<const K: usize>(&mut self, isa: Isa, block: Range<usize>, sums: &[[f64; K]]) -> bool {
+        let (mut own, mut out) = (lanes::blank(), lanes::blank());
+        let law = Stress { material: self.material, constants: self.constants };
+        let mut plain = true;
+        for (k, i) in block.clone().enumerate() {
+            lanes::show(&mut own, k, &sums[i], &self.correction[i].0);
+        }
+        sweep_points(isa, &law, block.len(), &[], &own, &mut out);
+        for k in 0..block.len() {
+            plain &= PLAIN.contains(&out[lanes::DETERMINANT][k]);
+        }
+        if plain {
+            for (k, i) in block.enumerate() {
+                let (gradient, q) = lanes::found(&out, k);
+                self.gradient[i] = gradient;
+                self.take(i, &q);
+            }
+        }
+        plain
+    }
+
+    #[inline(always)]
+    fn take(&mut self, i: usize, q: &DMat3) {
+        let dynamic = &mut self.dynamic[i];
+        *dynamic = self.kinematic[i];
+        (self.matrix[i], dynamic[7]) = pack(q);
     }
 
     /// Strain and stress of particle `k` by the `sums` of its pairs, packed with the hourglass control as `Q = P B - k G / 2`;
@@ -76,9 +119,7 @@ impl<R: Real, E: Elastic> Points<'_, R, E> {
             power = self.volume[k] * contraction(&viscous, &rate);
         }
         let q = first_piola * correction - (0.5 * constants.hourglass) * gradient;
-        let dynamic = &mut self.dynamic[k];
-        *dynamic = self.kinematic[k];
-        (self.matrix[k], dynamic[7]) = pack(&q);
+        self.take(k, &q);
         Some(power)
     }
 }

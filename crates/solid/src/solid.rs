@@ -59,6 +59,7 @@ pub struct Solid<R> {
     pub(crate) ready: bool,
     /// `place[given] = sorted`.
     place: Vec<u32>,
+    pub(crate) isa: Isa,
     precision: PhantomData<R>,
 }
 
@@ -127,6 +128,7 @@ impl<R: Real> Solid<R> {
             ledger: Ledger::default(),
             ready: false,
             place,
+            isa,
             precision: PhantomData,
         })
     }
@@ -302,6 +304,7 @@ impl<R: Real> Solid<R> {
             planes: _,
             shown: _,
             ready: _,
+            isa: _,
             precision: _,
         } = self;
         let (seen, needed) = (state.len(), place.len());

@@ -4,7 +4,7 @@ use crate::error::SolidError;
 use crate::solid::{Solid, held};
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real};
+use vaso_kernels::{CHUNK, Real, run_on};
 use vaso_particles::{WallMotion, WallView};
 
 impl<R: Real> Solid<R> {
@@ -115,7 +115,7 @@ impl<R: Real> Solid<R> {
     }
 
     fn kick(&mut self, dt: f64) {
-        let (external, planes) = (&self.loads.acceleration, &self.planes);
+        let (isa, external, planes) = (self.isa, &self.loads.acceleration, &self.planes);
         let state = &mut self.state;
         let (support, mass) = (&state.support, &state.mass);
         let work: Vec<f64> = state
@@ -125,13 +125,19 @@ impl<R: Real> Solid<R> {
             .enumerate()
             .map(|(c, (velocity, acceleration))| {
                 let mut work = 0.0;
-                for (k, (v, a)) in velocity.iter_mut().zip(acceleration).enumerate() {
-                    let i = c * CHUNK + k;
-                    let external = external.get(i).copied().unwrap_or_default();
-                    let new = held(*v + dt * (*a + external), support[i], planes);
-                    work += mass[i] * external.dot(*v + new);
-                    *v = new;
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for (k, (v, a)) in velocity.iter_mut().zip(acceleration).enumerate() {
+                            let i = c * CHUNK + k;
+                            let external = external.get(i).copied().unwrap_or_default();
+                            let new = held(*v + dt * (*a + external), support[i], planes);
+                            work += mass[i] * external.dot(*v + new);
+                            *v = new;
+                        }
+                    },
+                );
                 0.5 * dt * work
             })
             .collect();

@@ -14,7 +14,7 @@ use crate::reference::Reference;
 use crate::state::SolidState;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, FIELDS, Gather, Isa, Real, Records, Store, sweep};
+use vaso_kernels::{CHUNK, Gather, Isa, Real, Records, Store, run_on, sweep};
 use vaso_particles::Visitor;
 
 /// Working memory of a total-Lagrangian body.
@@ -133,11 +133,11 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
                 let power = if damped {
                     let mut sums = [[0.0; DAMPED_SUMS]; CHUNK];
                     sweep(isa, &DampedGradient, &gather, (row, range.start), Store::None, &mut sums);
-                    points.pass(&sums)
+                    points.pass(isa, &sums)
                 } else {
                     let mut sums = [[0.0; SUMS]; CHUNK];
                     sweep(isa, &DisplacementGradient, &gather, (row, range.start), Store::None, &mut sums);
-                    points.pass(&sums)
+                    points.pass(isa, &sums)
                 };
                 power.map_err(|k| range.start + k)
             })
@@ -180,10 +180,16 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
             |(c, (acceleration, row))| {
                 let mut sums = [[0.0; 3]; CHUNK];
                 sweep(isa, &law, &gather, (row, c * CHUNK), Store::None, &mut sums);
-                for (k, (acceleration, sums)) in acceleration.iter_mut().zip(sums).enumerate() {
-                    let damping = damping.get(c * CHUNK + k).copied().unwrap_or_default();
-                    *acceleration = scale * DVec3::from(sums) + damping;
-                }
+                run_on(
+                    isa,
+                    #[inline(always)]
+                    || {
+                        for (k, (acceleration, sums)) in acceleration.iter_mut().zip(sums).enumerate() {
+                            let damping = damping.get(c * CHUNK + k).copied().unwrap_or_default();
+                            *acceleration = scale * DVec3::from(sums) + damping;
+                        }
+                    },
+                );
             },
         );
     }
@@ -215,16 +221,27 @@ impl<R: Real, E: Elastic> Formulation for TotalLagrangian<R, E> {
     fn drift(&mut self, state: &mut SolidState, dt: f64) {
         let n = state.len();
         let in_supports = 1.0 / self.reference.kernel.support();
-        let moved = |record: &mut [R; FIELDS], u: &mut DVec3, v: &DVec3| {
-            *u += dt * *v;
-            for (field, u) in record[4..7].iter_mut().zip((*u * in_supports).to_array()) {
-                // Wraps around far from the reference position: only differences are read.
-                *field = R::coordinate((u * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u);
-            }
-        };
-        let columns =
-            (&mut self.kinematic.as_mut_slice()[..n], &mut state.displacement[..], &state.velocity[..]);
-        columns.into_par_iter().with_min_len(1024).for_each(|(record, u, v)| moved(record, u, v));
+        let isa = self.isa;
+        let columns = (
+            self.kinematic.as_mut_slice()[..n].par_chunks_mut(CHUNK),
+            state.displacement.par_chunks_mut(CHUNK),
+            state.velocity.par_chunks(CHUNK),
+        );
+        columns.into_par_iter().for_each(|(records, displacement, velocity)| {
+            run_on(
+                isa,
+                #[inline(always)]
+                || {
+                    for ((record, u), v) in records.iter_mut().zip(displacement).zip(velocity) {
+                        *u += dt * *v;
+                        for (field, u) in record[4..7].iter_mut().zip((*u * in_supports).to_array()) {
+                            // Wraps around far from the reference position: only differences are read.
+                            *field = R::coordinate((u * (1.0 / DISPLACEMENT_UNIT)) as i64 as i32, u);
+                        }
+                    }
+                },
+            );
+        });
         self.reference.copy_to_images(&mut self.kinematic, 4);
         if !self.damping.is_empty() {
             let records = &mut self.velocity.as_mut_slice()[..n];

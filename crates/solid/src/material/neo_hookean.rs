@@ -2,7 +2,9 @@
 
 use super::{Elastic, Fibres, cofactor, inverse_two_thirds, largest_eigenvalue, moduli, norm_squared};
 use crate::error::SolidError;
+use crate::lanes;
 use glam::DMat3;
+use vaso_kernels::Lanes;
 
 /// `psi = G/2 (J^(-2/3) tr C - 3) + K/4 (J^2 - 1 - 2 ln J)`: the usual matrix of soft tissue.
 ///
@@ -65,6 +67,19 @@ impl Elastic for NeoHookean {
     fn stress(&self, f: &DMat3, _: &Fibres) -> DMat3 {
         let (inverse, j) = inverse_transposed(f);
         isochoric(self.shear, f, &inverse, j) + (0.5 * self.bulk * (j * j - 1.0)) * inverse
+    }
+
+    const IN_LANES: bool = true;
+
+    #[inline(always)]
+    fn stress_in_lanes<L: Lanes<Elem = f64>>(&self, f: &[L; 9], cofactor: &[L; 9], j: L) -> [L; 9] {
+        let g = L::constant(self.shear) * lanes::inverse_two_thirds(j);
+        let one = L::constant(1.0);
+        let pressure = L::constant(0.5 * self.bulk) * (j * j - one);
+        // A third of three is one: a body at rest has no stress, not even that of rounding.
+        let mean = L::constant(1.0 / 3.0) * lanes::norm_squared(f);
+        let across = (pressure - g * mean) * lanes::inverse(j);
+        std::array::from_fn(|k| g.fma(f[k], across * cofactor[k]))
     }
 
     fn modulus(&self, f: &DMat3, _: &Fibres) -> f64 {

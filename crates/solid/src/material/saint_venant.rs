@@ -2,7 +2,9 @@
 
 use super::{Elastic, Fibres, largest_eigenvalue, moduli, norm_squared};
 use crate::error::SolidError;
+use crate::lanes;
 use glam::{DMat3, DVec3};
+use vaso_kernels::Lanes;
 
 /// `S = lambda tr(E) I + 2 G E` with the Green strain `E`: for stretches of 0.8 to 1.3, as it stiffens in tension and gives
 /// way in compression.
@@ -35,6 +37,21 @@ impl Elastic for SaintVenantKirchhoff {
         let e = 0.5 * (f.transpose() * *f - DMat3::IDENTITY);
         let trace = e.x_axis.x + e.y_axis.y + e.z_axis.z;
         *f * (2.0 * self.shear * e + DMat3::from_diagonal(DVec3::splat(self.lambda * trace)))
+    }
+
+    const IN_LANES: bool = true;
+
+    #[inline(always)]
+    fn stress_in_lanes<L: Lanes<Elem = f64>>(&self, f: &[L; 9], _: &[L; 9], _: L) -> [L; 9] {
+        let transposed = std::array::from_fn(|k| f[3 * (k % 3) + k / 3]);
+        let mut second = lanes::product(&transposed, f);
+        let (one, shear) = (L::constant(1.0), L::constant(self.shear));
+        let diagonal = [0, 4, 8];
+        diagonal.iter().for_each(|&k| second[k] = second[k] - one);
+        let trace = second[0] + second[4] + second[8];
+        second = second.map(|e| shear * e);
+        diagonal.iter().for_each(|&k| second[k] = L::constant(0.5 * self.lambda).fma(trace, second[k]));
+        lanes::product(f, &second)
     }
 
     /// `N.S N` for tension along the wave and `F C F^T` of the elasticity.
