@@ -163,22 +163,29 @@ fn length(vessel: &Vessel) -> f64 {
 /// Peak over mean of a developed profile.
 const PARABOLIC: f64 = 2.0;
 /// Time a core takes in mixed precision for an acoustic step of a fluid particle, for an advective step of one, and for an acoustic step
-/// of a particle of a wall at rest \[s\]: those of `docs/speed.md`.
-const ACOUSTIC: f64 = 0.285e-6;
-const ADVECTIVE: f64 = 1.35e-6;
-const WALL_AT_REST: f64 = 0.018e-6;
+/// of a particle of a wall at rest \[s\]: of the first twenty seconds of the shipped cases on two threads.
+const ACOUSTIC: f64 = 0.200e-6;
+const ADVECTIVE: f64 = 0.87e-6;
+const WALL_AT_REST: f64 = 0.013e-6;
+/// What an advective step of a particle takes longer where the viscosity follows the shear rate, and where the stress on the wall is taken in
+/// each of them for the measures of a cycle \[s\].
+const SHEAR_THINNING: f64 = 0.19e-6;
+const WALL_SHEAR: f64 = 0.35e-6;
 /// Share of the threads that is at work.
 const EFFICIENCY: f64 = 0.87;
 /// How much longer all of it takes in double precision.
-const DOUBLE: f64 = 1.3;
-/// Time a particle of a solid takes a core for one sub-step \[s\]: measured, see `docs/theory/solids.md`.
-const SUBSTEP_SOLID: f64 = 0.28e-6;
-/// Time a particle of a shell takes a core for one sub-step, and for what it and the blood show each other in an acoustic step \[s\]: of the
+const DOUBLE: f64 = 1.5;
+/// Time a particle of a solid takes a core for one sub-step, and for what it and the blood show each other in an acoustic step \[s\]: of the
 /// same runs.
-const SUBSTEP_SHELL: f64 = 0.36e-6;
-const STEP_SHELL: f64 = 0.75e-6;
+const SUBSTEP_SOLID: f64 = 0.25e-6;
+const STEP_SOLID: f64 = 0.16e-6;
+/// The same of a shell, whatever its material.
+const SUBSTEP_SHELL: f64 = 0.27e-6;
+const STEP_SHELL: f64 = 0.375e-6;
+/// Time \[s\] for which threads wait for each other in a sub-step, however few particles there are.
+const WAITING: f64 = 0.08e-3;
 /// Time a particle of any body takes a core to be made \[s\]: of the same runs.
-const GENERATION: f64 = 0.3e-3;
+const GENERATION: f64 = 0.22e-3;
 /// Bytes a fluid particle takes, rows included.
 const BYTES_MIXED: f64 = 2000.0;
 const BYTES_DOUBLE: f64 = 2800.0;
@@ -187,11 +194,12 @@ const BYTES_WALL: f64 = 400.0;
 /// Bytes of a column over those of a particle of a wall: its ghosts are rows and records as well.
 const BYTES_SHELL: f64 = 4.0;
 
-/// Expected particles, memory and time of a run, with a wall that is a solid, a shell or at rest.
+/// Expected particles, memory and time of a run, with a wall that is a solid, a shell or at rest, and widens by a radial strain, by which there
+/// is more blood than at the start.
 pub fn cost(
     case: &Case,
     numbers: &Numbers,
-    (solid, shell): (Option<&PlannedWall>, Option<&PlannedShell>),
+    (solid, shell, radial_strain): (Option<&PlannedWall>, Option<&PlannedShell>, f64),
     precision: Precision,
     end_time: f64,
 ) -> Predicted {
@@ -220,18 +228,25 @@ pub fn cost(
     // Acoustic steps are as many as an advective one needs, a whole number.
     let per_advective = (numbers.advective_step(numbers.reference_speed, 0.0) / step).ceil().max(1.0);
     let at_rest = if solid.is_some() || shell.is_some() { 0.0 } else { wall };
+    let thinning = if numbers.rheology.is_some() { SHEAR_THINNING } else { 0.0 };
+    let shear = if case.scene.output.fields.iter().any(|f| f.is_of_a_cycle()) { WALL_SHEAR } else { 0.0 };
+    let advective = ADVECTIVE + thinning + shear;
     let fluid_time = slower
         * (end_time / step)
-        * (fluid * (ACOUSTIC + ADVECTIVE / per_advective) + at_rest * WALL_AT_REST);
+        * (fluid * (1.0 + radial_strain).powi(2) * (ACOUSTIC + advective / per_advective)
+            + at_rest * WALL_AT_REST);
+    let threads = rayon::current_num_threads() as f64;
+    let waiting = if threads > 1.0 { WAITING * threads } else { 0.0 };
     let solid_time = solid.map_or(0.0, |s| {
         let own = s.numbers.stable_step(s.material.wave_speed(s.numbers.density), 0.0);
-        wall * (end_time / step) * (step / own).ceil() * SUBSTEP_SOLID
+        let substep = wall * SUBSTEP_SOLID + waiting;
+        (end_time / step) * ((step / own).ceil() * substep + wall * STEP_SOLID)
     });
     let shell_time = shell.map_or(0.0, |s| {
         let own = s.numbers.expected_step(&s.material, s.thickness);
-        one_layer * (end_time / step) * ((step / own).ceil() * SUBSTEP_SHELL + STEP_SHELL)
+        let substep = one_layer * SUBSTEP_SHELL + waiting;
+        (end_time / step) * ((step / own).ceil() * substep + one_layer * STEP_SHELL)
     });
-    let threads = rayon::current_num_threads() as f64;
     let at_work = if threads > 1.0 { EFFICIENCY * threads } else { threads };
     Predicted {
         particles: ParticleCounts {

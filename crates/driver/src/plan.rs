@@ -166,9 +166,9 @@ impl Plan {
         }
         let precision = scene.numerics.precision;
         let isa = Isa::detect();
-        let predicted =
-            estimate::cost(case, &numbers, (wall.as_ref(), shell.as_ref()), precision, scene.run.end_time);
         let radial_strain = pulse.map(|p| flow.pressure_range / (2.0 * density * p.mean * p.mean));
+        let walls = (wall.as_ref(), shell.as_ref(), radial_strain.unwrap_or(0.0));
+        let predicted = estimate::cost(case, &numbers, walls, precision, scene.run.end_time);
         let womersley = scene
             .run
             .period
