@@ -109,7 +109,7 @@ pub const CASES: &[Studied] = &[
         remark: "A soft tube that its pressure widens by a ninth, at seven, nine and twelve spacings across: errors are those of the velocity at three places of its middle \
                  against Poiseuille in a tube as wide as a thick one of rubber becomes. Were the tube rigid, the velocity on its axis would be 26 % more. \
                  As in the pipe, the probes take off what the profile is curved, which falls with the spacing; the pressure makes the blood denser by 0.7 %, which falls with \
-                 the square of the sound speed alone. Two per cent are asked for; the finest run is of a rule that went on from 2.4, where the present one ends.",
+                 the square of the sound speed alone. Two per cent are asked for.",
         set: &[],
         spacings: &[],
         ladders: &["spacing", "sound-speed", "precision"],
