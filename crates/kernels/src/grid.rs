@@ -6,7 +6,7 @@ use rayon::prelude::*;
 /// Slices of a cell along x.
 const SLICES: usize = 4;
 
-/// Uniform grid of cubic cells in [`SLICES`] along x, numbered row-major with x fastest.
+/// Uniform grid of cubic cells in four slices along x, numbered row-major with x fastest.
 ///
 /// Neighbouring slices of one row are contiguous in particle order, so a search reads nine runs of memory, each a little longer than the
 /// sphere around a particle is wide: three quarters of the three cells that it would be without slices.
