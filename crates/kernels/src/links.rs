@@ -6,7 +6,7 @@
 use crate::frame::Frame;
 use crate::isa::{Isa, LaneWork, dispatch};
 use crate::lanes::{FIELDS, Lanes, Real, SearchLanes, add_lanes};
-use crate::pairs::{AHEAD, Gather, Own, Pair, PairLaw, PairStore, Store, Stored, sweep};
+use crate::pairs::{Gather, Own, Pair, PairLaw, PairStore, Store, Stored, sweep};
 use crate::records::Records;
 use crate::rows::{CHUNK, RowChunk, Rows};
 use glam::DVec3;
@@ -168,12 +168,6 @@ impl<R: Real, P: LinkLaw<R, S, K>, const S: usize, const K: usize> LaneWork<R> f
                 // record; there are `S` stored numbers an entry, which `sweep_links` has checked.
                 unsafe {
                     let at = self.chunk.at.as_ptr().add(m);
-                    if m % 16 == 0 {
-                        L::prefetch(at.wrapping_add(AHEAD));
-                        for s in 0..S {
-                            L::prefetch(stored_base.wrapping_add(s * n_entries + m + AHEAD).cast());
-                        }
-                    }
                     let other = L::records(base, at);
                     let second = if P::SECOND { L::records(second_base, at) } else { [L::zero(); FIELDS] };
                     let stored: [L; S] = std::array::from_fn(|s| L::load(stored_base.add(s * n_entries + m)));

@@ -193,7 +193,7 @@ struct Sweep<'a, R, P, F, const K: usize> {
 }
 
 /// Entries of the index stream to fetch ahead (2 KiB), and of what is stored beside it: the hardware does not keep up between gathers.
-pub(crate) const AHEAD: usize = 512;
+const AHEAD: usize = 512;
 
 impl<R: Real, P: PairLaw<R, K>, F: Fn(usize) -> bool, const K: usize> LaneWork<R> for Sweep<'_, R, P, F, K> {
     #[inline(always)]

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use vaso_kernels::{
     CHUNK, CellGrid, Frame, Gather, Isa, Lanes, Own, Pair, PairLaw, PairStore, Real, Records, Rows,
-    SearchSet, Store, Stored, Wendland, sweep,
+    SearchSet, Store, Stored, Wendland, sweep, sweep_some,
 };
 
 const SPACING: f64 = 1e-3;
@@ -228,4 +228,53 @@ fn lists_that_grow_have_little_to_spare() {
     for (what, bytes) in [("rows", rows.bytes()), ("store", store.bytes())] {
         assert!(bytes < needed + needed / 4, "{what}: {bytes} for {needed}");
     }
+}
+
+/// The first sum is of the kernel, each other twice the one before it: exact in binary numbers.
+struct Doubles;
+
+impl<R: Real, const K: usize> PairLaw<R, K> for Doubles {
+    type Constants<L: Lanes<Elem = R>> = ();
+
+    fn constants<L: Lanes<Elem = R>>(&self) {}
+
+    #[inline(always)]
+    fn pair<L: Lanes<Elem = R>>((): &(), _: &Own<L>, p: &Pair<L>, sums: &mut [L; K]) {
+        let mut term = p.u;
+        for sum in sums {
+            *sum = *sum + term;
+            term = term + term;
+        }
+    }
+}
+
+fn many_sums<R: Real>() {
+    let cloud = cloud();
+    let mut records = Records::<R>::default();
+    records.resize(cloud.position.len());
+    records.fill(|i| {
+        let (fixed, x) = (cloud.set.get(i), cloud.frame.in_supports(cloud.position[i]));
+        std::array::from_fn(|k| if k < 3 { R::coordinate(fixed[k], x[k]) } else { R::pack(1.0) })
+    });
+    let gather =
+        Gather { frame: &cloud.frame, own: &records, other: &records, own_second: None, other_second: None };
+    for isa in Isa::available() {
+        for (c, row) in rows(&cloud, isa).chunks().iter().enumerate() {
+            let (mut one, mut many) = ([[0.0; 1]; CHUNK], [[-1.0; 11]; CHUNK]);
+            sweep(isa, &Doubles, &gather, (row, c * CHUNK), Store::None, &mut one);
+            let takes = |k: usize| !k.is_multiple_of(3);
+            sweep_some(isa, &Doubles, &gather, (row, c * CHUNK), Store::None, takes, &mut many);
+            for k in 0..row.len() {
+                let expected: [f64; 11] =
+                    std::array::from_fn(|q| if takes(k) { one[k][0] * f64::from(1 << q) } else { -1.0 });
+                assert_eq!(many[k], expected, "{} row {k}", isa.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn sums_found_together_have_the_bits_of_each_and_rows_left_out_keep_theirs() {
+    many_sums::<f32>();
+    many_sums::<f64>();
 }
