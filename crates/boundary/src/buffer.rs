@@ -5,8 +5,8 @@
 //! crosses the cap is removed. Both happen at every opening, so flow may reverse.
 
 use crate::openings::Openings;
-use crate::port::{Passed, Port};
-use crate::profile::Inlet;
+use crate::port::Passed;
+use crate::profile::{Amplitudes, Inlet};
 use crate::room::Room;
 use glam::DVec3;
 use num_complex::Complex64;
@@ -33,7 +33,7 @@ impl Openings {
         let length = self.buffer_length();
         let fringe = FRINGE * self.spacing;
         let reference = self.reference_pressure(t);
-        let mut room: Vec<Option<Room>> = self.ports.iter().map(|_| None).collect();
+        self.rooms.iter_mut().for_each(Room::forget);
         for i in 0..state.len() {
             let Ok(k) = usize::try_from(state.opening[i]) else { continue };
             let imposed = self.pressure_value(k, t);
@@ -44,9 +44,7 @@ impl Openings {
             let normal = port.opening.normal;
             let (mut place, mut velocity) = (state.position[i] + length * port.stride(), state.velocity[i]);
             if port.condition.sets_pressure() {
-                let room = room[k].get_or_insert_with(|| {
-                    Room::new(&self.places[k], &port.opening, k as i32, self.spacing, state)
-                });
+                let room = self.rooms[k].see(&port.opening, k as i32, state);
                 let Some((free, outward)) = room.take(place, velocity.dot(normal)) else {
                     // A crowd is one particle less.
                     state.opening[i] = FluidState::NO_OPENING;
@@ -69,24 +67,18 @@ impl Openings {
             port.counters.injected += 1;
             port.counters.outflow_volume -= state.mass[i] / rest_density;
         }
-        let mut leaving: Vec<(usize, usize)> = {
-            let this = &*self;
-            state
-                .position
-                .par_iter()
-                .enumerate()
-                .with_min_len(4096)
-                .filter_map(|(i, &x)| this.left_through(x).map(|k| (i, k)))
-                .collect()
-        };
-        leaving.sort_unstable_by_key(|l| std::cmp::Reverse(l.0));
-        for (i, k) in leaving {
+        let mut leaving = std::mem::take(&mut self.found);
+        leaving.find(state.len(), |i| self.left_through(state.position[i]).is_some());
+        // From the end, so that what takes the place of one that leaves is none of them.
+        for i in leaving.chosen().iter().rev().map(|&i| i as usize) {
+            let Some(k) = self.left_through(state.position[i]) else { continue };
             let counters = &mut self.ports[k].counters;
             counters.deleted += 1;
             counters.strays += u64::from(state.opening[i] != k as i32);
             counters.outflow_volume += state.mass[i] / rest_density;
             visit::swap_remove(state, i);
         }
+        self.found = leaving;
         self.label(state);
     }
 
@@ -130,33 +122,37 @@ impl Openings {
         let reach = (length + FRINGE * self.spacing).max(2.0 * self.numbers.smoothing_length);
         let ports = &self.ports;
         let spacing = self.spacing;
+        let near = |i: usize| {
+            let x = state.position[i];
+            let near = ports.iter().enumerate().filter_map(|(k, port)| {
+                let s = port.opening.depth(x);
+                if !(-length..reach).contains(&s) {
+                    return None;
+                }
+                let lateral = port.lateral(x);
+                (lateral < spacing).then_some((lateral, k, s))
+            });
+            near.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let zone = |i: usize| {
+            let (_, k, s) = near(i)?;
+            // Where a particle comes in and counts for nothing yet, while its copy counts in full.
+            let first = if ports[k].condition.sets_pressure() { 0.0 } else { FRINGE * spacing };
+            Some(CapZone {
+                particle: i as u32,
+                opening: k as u32,
+                normal: ports[k].opening.normal,
+                depth: s,
+                // Whatever the buffer owns moves as asked, see `apply`.
+                is_imposed: state.opening[i] == k as i32 && !ports[k].condition.sets_pressure(),
+                in_buffer: s <= length,
+                takes_pressure: s <= length && ports[k].condition.sets_pressure(),
+                share: ((s - first) / length).clamp(0.0, 1.0),
+            })
+        };
         self.zones.clear();
-        self.zones.par_extend(state.position.par_iter().enumerate().with_min_len(4096).filter_map(
-            |(i, &x)| {
-                let near = ports.iter().enumerate().filter_map(|(k, port)| {
-                    let s = port.opening.depth(x);
-                    if !(-length..reach).contains(&s) {
-                        return None;
-                    }
-                    let lateral = port.lateral(x);
-                    (lateral < spacing).then_some((lateral, k, s))
-                });
-                let (_, k, s) = near.min_by(|a, b| a.0.total_cmp(&b.0))?;
-                // Where a particle comes in and counts for nothing yet, while its copy counts in full.
-                let first = if ports[k].condition.sets_pressure() { 0.0 } else { FRINGE * spacing };
-                Some(CapZone {
-                    particle: i as u32,
-                    opening: k as u32,
-                    normal: ports[k].opening.normal,
-                    depth: s,
-                    // Whatever the buffer owns moves as asked, see `apply`.
-                    is_imposed: state.opening[i] == k as i32 && !ports[k].condition.sets_pressure(),
-                    in_buffer: s <= length,
-                    takes_pressure: s <= length && ports[k].condition.sets_pressure(),
-                    share: ((s - first) / length).clamp(0.0, 1.0),
-                })
-            },
-        ));
+        let found = self.found.find(state.len(), |i| near(i).is_some());
+        self.zones.extend(found.iter().filter_map(|&i| zone(i as usize)));
         self.shape_flow(state, part);
         self.ports.iter_mut().for_each(|port| port.passed = Passed::default());
     }
@@ -180,12 +176,14 @@ impl Openings {
             self.waves.extend(inlet.waves(at));
         }
         let (length, rest_density) = (self.buffer_length(), self.numbers.rest_density);
-        let n_waves = |port: &Port| port.inlet.as_ref().map_or(0, Inlet::n_waves);
-        let mut carried: Vec<(f64, Vec<Complex64>)> =
-            self.ports.iter().map(|port| (0.0, vec![Complex64::ZERO; n_waves(port)])).collect();
+        for (carried, port) in self.carried.iter_mut().zip(&self.ports) {
+            carried.steady = 0.0;
+            carried.waves.clear();
+            carried.waves.resize(port.inlet.as_ref().map_or(0, Inlet::n_waves), Complex64::ZERO);
+        }
         let mut waves = self.waves.as_slice();
         for (zone, shape) in self.zones.iter().zip(&self.shape) {
-            let (steady, sums) = &mut carried[zone.opening as usize];
+            let Amplitudes { steady, waves: sums } = &mut self.carried[zone.opening as usize];
             let (own, rest) = waves.split_at(sums.len());
             waves = rest;
             let i = zone.particle as usize;
@@ -195,7 +193,7 @@ impl Openings {
                 sums.iter_mut().zip(own).for_each(|(sum, wave)| *sum += wave * volume);
             }
         }
-        for (port, (steady, waves)) in self.ports.iter_mut().zip(&carried) {
+        for (port, Amplitudes { steady, waves }) in self.ports.iter_mut().zip(&self.carried) {
             if let Some(inlet) = &mut port.inlet {
                 inlet.scale(*steady, waves, port.opening.area * length, part);
             }

@@ -19,43 +19,45 @@ impl Openings {
     pub fn apply<R: Real>(&mut self, fluid: &mut Fluid<R>, t: f64, dt: f64) -> f64 {
         let reference = self.reference_pressure(t);
         let (rest_density, length) = (self.numbers.rest_density, self.buffer_length());
-        let imposed: Vec<f64> =
-            (0..self.ports.len()).map(|k| self.pressure_value(k, t).unwrap_or(0.0) - reference).collect();
-        let inflow: Vec<Amplitudes> = self.ports.iter().map(|port| port.amplitudes(t)).collect();
-        let behind = self.density_behind(&fluid.state);
+        let mut all = std::mem::take(&mut self.now);
+        for (k, now) in all.iter_mut().enumerate() {
+            now.imposed = self.pressure_value(k, t).unwrap_or(0.0) - reference;
+            now.density_behind = self.density_behind(k, &fluid.state);
+            now.sums = Sums::default();
+            self.ports[k].set_amplitudes(t, &mut now.inflow);
+        }
         let mut waves = self.waves.as_slice();
-        let mut sums = vec![Sums::default(); self.ports.len()];
         let mut top: f64 = 0.0;
         for (zone, shape) in self.zones.iter().zip(&self.shape) {
             let (i, k) = (zone.particle as usize, zone.opening as usize);
-            let port = &self.ports[k];
+            let (port, now) = (&self.ports[k], &mut all[k]);
             let owned = fluid.state.opening[i] == k as i32;
-            let (own_waves, rest) = waves.split_at(inflow[k].waves.len());
+            let (own_waves, rest) = waves.split_at(now.inflow.waves.len());
             waves = rest;
             let velocity = match port.condition {
                 // Whatever the buffer owns moves as asked, the fringe too: that makes the flow exact.
                 Condition::Velocity { .. } if owned => {
-                    let pulse: Complex64 = own_waves.iter().zip(&inflow[k].waves).map(|(w, a)| w * a).sum();
-                    Some(-port.stride() * (inflow[k].steady * shape + pulse.re))
+                    let pulse: Complex64 = own_waves.iter().zip(&now.inflow.waves).map(|(w, a)| w * a).sum();
+                    Some(-port.stride() * (now.inflow.steady * shape + pulse.re))
                 }
                 Condition::Velocity { .. } => None,
                 _ if !zone.in_buffer => None,
                 _ => {
                     let rho = rest_density + fluid.state.density_change[i];
-                    let pushed = fluid.state.velocity[i] + dt * imposed[k] / rho * fluid.missing_support(i);
+                    let pushed = fluid.state.velocity[i] + dt * now.imposed / rho * fluid.missing_support(i);
                     let mut outward = pushed.dot(zone.normal);
                     if port.outlet.is_some() && outward < 0.0 {
                         // The traction beta rho |v| v / 2 on the cap, spread over the buffer, taken implicitly.
                         let slower =
                             outward / (1.0 + 0.5 * port.backflow_damping * outward.abs() * dt / length);
                         let loss = outward * outward - slower * slower;
-                        sums[k].damped += 0.5 * fluid.state.mass[i] * loss;
+                        now.sums.damped += 0.5 * fluid.state.mass[i] * loss;
                         outward = slower;
                     }
                     Some(outward * zone.normal)
                 }
             };
-            if let (true, Some(density_change)) = (zone.is_imposed, behind[k]) {
+            if let (true, Some(density_change)) = (zone.is_imposed, now.density_behind) {
                 fluid.state.density_change[i] = density_change;
                 fluid.state.density_rate[i] = 0.0;
             }
@@ -67,15 +69,15 @@ impl Openings {
             if owned {
                 let (mass, velocity) = (fluid.state.mass[i], fluid.state.velocity[i]);
                 let (volume, outward) = (mass / rest_density, velocity.dot(zone.normal));
-                sums[k].volume += volume;
-                sums[k].moment += volume * outward;
-                sums[k].kinetic += 0.5 * mass * velocity.length_squared() * outward;
+                now.sums.volume += volume;
+                now.sums.moment += volume * outward;
+                now.sums.kinetic += 0.5 * mass * velocity.length_squared() * outward;
                 if port.outlet.is_some() {
-                    sums[k].pressure += volume * fluid.acoustic_pressure(i);
+                    now.sums.pressure += volume * fluid.acoustic_pressure(i);
                 }
             }
         }
-        for ((port, sum), imposed) in self.ports.iter_mut().zip(&sums).zip(&imposed) {
+        for (port, Now { sums: sum, imposed, .. }) in self.ports.iter_mut().zip(&all) {
             port.counters.damped_energy += sum.damped;
             port.passed.time += dt;
             port.passed.volume += dt * sum.moment / length;
@@ -90,14 +92,23 @@ impl Openings {
                 outlet.follow(buffer, length, dt);
             }
         }
+        self.now = all;
         top
     }
 
     /// Mean state of the openings at `t` \[s\]; needs [`Self::locate`] before it.
     pub fn measure(&self, state: &FluidState, t: f64) -> Vec<Reading> {
+        let mut readings = Vec::new();
+        self.measure_into(state, t, &mut readings);
+        readings
+    }
+
+    /// The same into a list that is used again.
+    pub fn measure_into(&self, state: &FluidState, t: f64, readings: &mut Vec<Reading>) {
         let (near, far) = (self.buffer_length(), self.buffer_length() + SECTION * self.spacing);
         let reference = self.reference_pressure(t);
-        let mut readings: Vec<Reading> = vec![Reading::default(); self.ports.len()];
+        readings.clear();
+        readings.resize(self.ports.len(), Reading::default());
         for (k, port) in self.ports.iter().enumerate() {
             let Passed { time, volume, kinetic_energy } = port.passed;
             if time > 0.0 {
@@ -119,8 +130,19 @@ impl Openings {
                 }
             };
         }
-        readings
     }
+}
+
+/// What holds at an opening in an acoustic step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Now {
+    /// Pressure imposed, relative to the reference \[Pa\].
+    imposed: f64,
+    /// How much of each shape of its profile flows in \[m/s\].
+    inflow: Amplitudes,
+    /// See [`Openings::density_behind`].
+    density_behind: Option<f64>,
+    sums: Sums,
 }
 
 /// What is added up over the particles of a buffer in a step.

@@ -1,14 +1,14 @@
 //! All openings of a run, and the pressure level they set.
 
+use crate::impose::Now;
 use crate::outlet::{Coupling, Outlet, OutletState, common_pressure};
 use crate::port::{Condition, Counters, Passed, Port};
-use crate::profile::Inlet;
-use crate::room::places;
-use glam::DVec3;
+use crate::profile::{Amplitudes, Inlet};
+use crate::room::Room;
 use num_complex::Complex64;
 use vaso_fluid::{CapZone, Numbers};
 use vaso_geometry::Opening;
-use vaso_particles::Memory;
+use vaso_particles::{Memory, Selection};
 
 /// Length of a buffer, in spacings.
 pub const BUFFER_LENGTH: f64 = 4.0;
@@ -35,15 +35,21 @@ pub struct Openings {
     pub(crate) spacing: f64,
     pub(crate) next_id: u64,
     reference: Reference,
-    /// Places over the cap of each pressure opening \[m\], for what comes in there.
-    pub(crate) places: Vec<Vec<DVec3>>,
+    /// Room behind the cap of each pressure opening, for what comes in there.
+    pub(crate) rooms: Vec<Room>,
     pub(crate) zones: Vec<CapZone>,
     /// Steady unit-mean profile value at each zone entry.
     pub(crate) shape: Vec<f64>,
     /// Those of the harmonics, one zone entry after the other where its inlet has any.
     pub(crate) waves: Vec<Complex64>,
     /// Particles behind the buffer of each velocity opening, see [`Self::density_behind`].
-    pub(crate) behind: Vec<Vec<u32>>,
+    pub(crate) behind: Vec<Selection>,
+    /// Particles that a stage looks for.
+    pub(crate) found: Selection,
+    /// What holds at each opening in an acoustic step.
+    pub(crate) now: Vec<Now>,
+    /// Volume that the particles of each buffer carry of each shape of its profile \[m^3\].
+    pub(crate) carried: Vec<Amplitudes>,
 }
 
 impl Openings {
@@ -86,16 +92,17 @@ impl Openings {
             (None, None) if ports.iter().any(|p| p.outlet.is_some()) => Reference::Outlets,
             (None, None) => Reference::Fixed(0.0),
         };
-        let places =
-            ports
-                .iter()
-                .map(|p| {
-                    if p.condition.sets_pressure() { places(&p.opening, numbers.spacing) } else { Vec::new() }
-                })
-                .collect();
+        let room = |p: &Port| match p.condition.sets_pressure() {
+            true => Room::new(&p.opening, numbers.spacing),
+            false => Room::default(),
+        };
         Self {
+            rooms: ports.iter().map(room).collect(),
+            behind: vec![Selection::default(); ports.len()],
+            found: Selection::default(),
+            now: vec![Now::default(); ports.len()],
+            carried: vec![Amplitudes::default(); ports.len()],
             ports,
-            places,
             numbers: *numbers,
             spacing: numbers.spacing,
             next_id: 0,
@@ -103,7 +110,6 @@ impl Openings {
             zones: Vec::new(),
             shape: Vec::new(),
             waves: Vec::new(),
-            behind: Vec::new(),
         }
     }
 
@@ -137,12 +143,15 @@ impl Openings {
             numbers: _,
             spacing: _,
             reference: _,
-            places: _,
             // Found anew at the begin of each step.
+            rooms: _,
             zones: _,
             shape: _,
             waves: _,
             behind: _,
+            found: _,
+            now: _,
+            carried: _,
         } = self;
         memory.counts("openings.next_id", &mut [next_id]);
         for (k, port) in ports.iter_mut().enumerate() {

@@ -131,11 +131,10 @@ impl Port {
         if self.condition.sets_pressure() { self.opening.lateral(x) } else { self.opening.beside(x) }
     }
 
-    /// How much of each shape of its profile flows in at `t` \[s\]; nothing where it imposes no velocity.
-    pub(crate) fn amplitudes(&self, t: f64) -> Amplitudes {
-        match (&self.condition, &self.inlet) {
-            (Condition::Velocity { mean, .. }, Some(inlet)) => inlet.amplitudes(mean, t),
-            _ => Amplitudes::default(),
+    /// Notes how much of each shape of its profile flows in at `t` \[s\]; nothing where it imposes no velocity.
+    pub(crate) fn set_amplitudes(&self, t: f64, amplitudes: &mut Amplitudes) {
+        if let (Condition::Velocity { mean, .. }, Some(inlet)) = (&self.condition, &self.inlet) {
+            inlet.set_amplitudes(mean, t, amplitudes);
         }
     }
 }

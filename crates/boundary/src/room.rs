@@ -21,7 +21,7 @@ const LEAST: f64 = 0.7;
 const AROUND: f64 = 1.5;
 
 /// Places over a cap: a square lattice along its axes \[m\].
-pub(crate) fn places(opening: &Opening, spacing: f64) -> Vec<DVec3> {
+fn places(opening: &Opening, spacing: f64) -> Vec<DVec3> {
     let (step, depth) = (STEP * spacing, DEPTH * spacing);
     let reach = opening.polygon.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
     let n = (reach / step).ceil() as i32;
@@ -35,9 +35,13 @@ pub(crate) fn places(opening: &Opening, spacing: f64) -> Vec<DVec3> {
         .collect()
 }
 
-/// What is free behind the cap of an opening in one exchange.
-pub(crate) struct Room<'a> {
-    places: &'a [DVec3],
+/// What is free behind the cap of an opening in one exchange. Its lists are used again in the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Room {
+    /// Places over the cap that are offered \[m\].
+    places: Vec<DVec3>,
+    /// Whether it has been looked over in this exchange.
+    is_seen: bool,
     /// Squared distance from each place to the nearest particle \[m^2\].
     gap: Vec<f64>,
     /// Position \[m\] and velocity along the normal \[m/s\] of the particles near the cap.
@@ -45,24 +49,32 @@ pub(crate) struct Room<'a> {
     spacing: f64,
 }
 
-impl<'a> Room<'a> {
-    /// Room over `places` of `opening`, whose number is `label`.
-    pub(crate) fn new(
-        places: &'a [DVec3],
-        opening: &Opening,
-        label: i32,
-        spacing: f64,
-        state: &FluidState,
-    ) -> Self {
-        let reach = (DEPTH + AROUND) * spacing;
-        let near: Vec<(DVec3, f64)> = (0..state.len())
-            .filter(|&i| {
+impl Room {
+    /// Room over the cap of `opening`.
+    pub(crate) fn new(opening: &Opening, spacing: f64) -> Self {
+        Self { places: places(opening, spacing), spacing, ..Self::default() }
+    }
+
+    /// Begins a new exchange.
+    pub(crate) fn forget(&mut self) {
+        self.is_seen = false;
+    }
+
+    /// Sees who is near the cap of `opening`, whose number is `label`, unless that has been done in this exchange.
+    pub(crate) fn see(&mut self, opening: &Opening, label: i32, state: &FluidState) -> &mut Self {
+        if !self.is_seen {
+            self.is_seen = true;
+            let reach = (DEPTH + AROUND) * self.spacing;
+            let is_near = |&i: &usize| {
                 state.opening[i] == label && (0.0..reach).contains(&opening.depth(state.position[i]))
-            })
-            .map(|i| (state.position[i], state.velocity[i].dot(opening.normal)))
-            .collect();
-        let gap = places.iter().map(|&x| nearest(&near, x)).collect();
-        Self { places, gap, near, spacing }
+            };
+            self.near.clear();
+            let near = (0..state.len()).filter(is_near);
+            self.near.extend(near.map(|i| (state.position[i], state.velocity[i].dot(opening.normal))));
+            self.gap.clear();
+            self.gap.extend(self.places.iter().map(|&x| nearest(&self.near, x)));
+        }
+        self
     }
 
     /// Takes a place for a particle that would come to `own` \[m\]: that if it is free, or else the one farthest from all others. Gives the
@@ -82,7 +94,7 @@ impl<'a> Room<'a> {
             (self.places[best], self.mean(self.places[best], velocity))
         };
         self.near.push(taken);
-        for (gap, place) in self.gap.iter_mut().zip(self.places) {
+        for (gap, place) in self.gap.iter_mut().zip(&self.places) {
             *gap = gap.min(place.distance_squared(taken.0));
         }
         Some(taken)
@@ -138,6 +150,13 @@ mod tests {
         state
     }
 
+    /// The room that these particles leave.
+    fn room(state: &FluidState) -> Room {
+        let mut room = Room::new(&cap(), 1.0);
+        room.see(&cap(), 0, state);
+        room
+    }
+
     #[test]
     fn places_lie_over_the_cap() {
         let places = places(&cap(), 1.0);
@@ -147,9 +166,8 @@ mod tests {
 
     #[test]
     fn the_own_place_is_taken_where_it_is_free() {
-        let (cap, places) = (cap(), places(&cap(), 1.0));
         let own = DVec3::new(0.5, 0.5, -0.5);
-        let mut room = Room::new(&places, &cap, 0, 1.0, &layer(&[[2, 2]]));
+        let mut room = room(&layer(&[[2, 2]]));
         assert_eq!(room.take(own, -0.1), Some((own, -0.1)));
         let (other, _) = room.take(own, -0.1).expect("a square lattice has room at its cells");
         assert!(
@@ -160,8 +178,7 @@ mod tests {
 
     #[test]
     fn another_place_is_taken_where_the_own_is_not() {
-        let (cap, places) = (cap(), places(&cap(), 1.0));
-        let mut room = Room::new(&places, &cap, 0, 1.0, &layer(&[[0, 3]]));
+        let mut room = room(&layer(&[[0, 3]]));
         let (place, outward) = room.take(DVec3::new(0.5, 0.5, -0.5), -0.1).expect("one is free");
         assert!(place.distance(DVec3::new(-1.5, 1.5, -0.5)) < 1e-12, "{place}");
         assert!((outward + 0.2).abs() < 1e-12, "it moves as its neighbours do: {outward}");
@@ -169,14 +186,13 @@ mod tests {
 
     #[test]
     fn nothing_is_put_where_there_is_no_room() {
-        let (cap, places) = (cap(), places(&cap(), 1.0));
         let mut crowd = layer(&[]);
         let second = crowd.position.iter().map(|x| *x + DVec3::new(0.5, 0.5, 0.0)).collect::<Vec<_>>();
         for x in second {
             vaso_particles::visit::append_copy(&mut crowd, 0);
             *crowd.position.last_mut().expect("one was added") = x;
         }
-        let mut room = Room::new(&places, &cap, 0, 1.0, &crowd);
+        let mut room = room(&crowd);
         assert_eq!(room.take(DVec3::new(0.5, 0.5, -0.5), -0.1), None);
     }
 }

@@ -4,6 +4,7 @@ use crate::wall::{CouplingError, Facet, MovingWall, NO_FACET};
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_fluid::{Contact, Fluid, Real};
+use vaso_kernels::{CHUNK, sum_in_order};
 use vaso_particles::{Memory, WallLoad, WallView};
 
 /// A wall that moves, with the forces of the fluid on it.
@@ -134,14 +135,12 @@ impl<W: MovingWall> Coupling<W> {
             .with_min_len(4096)
             .for_each(|(a, old, new)| *a += share * ((*new - *old) / dt - *a));
         // Forces are constant over the step, velocities about linear.
-        let on_particles = (&self.before, after, pressure_force, viscous_force).into_par_iter();
-        let power = ordered_sum(on_particles.map(|(old, new, p, v)| (*old + *new).dot(*p + *v)))
-            + ordered_sum((&self.face_pressure, &self.facets).into_par_iter().enumerate().map(
-                |(number, (pressure, old))| {
-                    let new = wall.facet(number);
-                    pressure * 0.5 * (old.area + new.area).dot(old.velocity + new.velocity)
-                },
-            ));
+        let (before, facets, face_pressure) = (&self.before, &self.facets, &self.face_pressure);
+        let power = total(after.len(), |i| (before[i] + after[i]).dot(pressure_force[i] + viscous_force[i]))
+            + total(facets.len(), |number| {
+                let (old, new) = (&facets[number], wall.facet(number));
+                face_pressure[number] * 0.5 * (old.area + new.area).dot(old.velocity + new.velocity)
+            });
         self.work += 0.5 * dt * power;
         Ok(())
     }
@@ -203,9 +202,10 @@ impl<W: MovingWall> Coupling<W> {
     }
 }
 
-/// Sum in pieces of fixed length, whatever the threads.
-fn ordered_sum(terms: impl IndexedParallelIterator<Item = f64>) -> f64 {
-    terms.fold_chunks(1024, || 0.0, |sum, term| sum + term).collect::<Vec<f64>>().iter().sum()
+/// Sum of the terms of `n` particles, in pieces of fixed length.
+fn total(n: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let piece = |c: usize| (c * CHUNK..n.min((c + 1) * CHUNK)).map(&term).sum::<f64>();
+    sum_in_order((0..n.div_ceil(CHUNK)).into_par_iter().map(piece))
 }
 
 /// Particles by facet: where those of each facet begin, the particles in this order, and those without a facet.

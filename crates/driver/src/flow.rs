@@ -254,7 +254,8 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         if fluid.numbers().transport_velocity {
             ledger.time(Stage::Transport, || fluid.transport(openings.zones()));
         }
-        ledger.time(Stage::Guard, || self.readings = openings.measure(&fluid.state, self.time));
+        let readings = &mut self.readings;
+        ledger.time(Stage::Guard, || openings.measure_into(&fluid.state, self.time, readings));
         self.guard()
     }
 

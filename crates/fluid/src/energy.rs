@@ -2,7 +2,8 @@
 
 use crate::fluid::{Fluid, first_of};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real};
+use std::ops::Add;
+use vaso_kernels::{CHUNK, Real, sum_in_order};
 
 /// Energy of a part of the blood at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,6 +14,14 @@ pub struct Energy {
     pub friction: f64,
 }
 
+impl Add for Energy {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { kinetic: self.kinetic + other.kinetic, friction: self.friction + other.friction }
+    }
+}
+
 impl<R: Real> Fluid<R> {
     /// Energy of the particles that `counts` says yes to; needs [`Self::viscosity`] before it, in the same order of particles.
     ///
@@ -20,20 +29,14 @@ impl<R: Real> Fluid<R> {
     pub fn energy(&self, counts: impl Fn(usize) -> bool + Sync) -> Energy {
         let state = &self.state;
         let n = state.len();
-        let chunks: Vec<[f64; 2]> = (0..n.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|c| {
-                let particles = (first_of(c)..n.min(first_of(c + 1))).filter(|&i| counts(i));
-                particles.fold([0.0; 2], |[kinetic, friction], i| {
-                    let (m, v) = (state.mass[i], state.velocity[i]);
-                    [
-                        kinetic + 0.5 * m * v.length_squared(),
-                        friction - m * v.dot(self.columns.acceleration(i)),
-                    ]
-                })
+        let of_chunk = |c: usize| {
+            let particles = (first_of(c)..n.min(first_of(c + 1))).filter(|&i| counts(i));
+            particles.fold(Energy::default(), |sum, i| {
+                let (m, v) = (state.mass[i], state.velocity[i]);
+                let kinetic = 0.5 * m * v.length_squared();
+                sum + Energy { kinetic, friction: -m * v.dot(self.columns.acceleration(i)) }
             })
-            .collect();
-        let sum = |k: usize| chunks.iter().map(|c| c[k]).sum();
-        Energy { kinetic: sum(0), friction: sum(1) }
+        };
+        sum_in_order((0..n.div_ceil(CHUNK)).into_par_iter().map(of_chunk))
     }
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use vaso_kernels::{
     CHUNK, CellGrid, Frame, Isa, PairStore, Real, Records, RowChunk, Rows, SearchSet, Wendland,
 };
-use vaso_particles::{Memory, WallDistance, WallView, visit};
+use vaso_particles::{Memory, Selection, WallDistance, WallView, visit};
 
 /// Weakly compressible fluid in a vessel.
 ///
@@ -27,6 +27,9 @@ pub struct Fluid<R> {
     pub(crate) frame: Frame,
     grid: CellGrid,
     order: Vec<u32>,
+    spare: visit::Spare,
+    /// Particles that the guard looks at.
+    pub(crate) near_wall: Selection,
     set: SearchSet,
     pub(crate) rows: Rows,
     pub(crate) wall: WallSide<R>,
@@ -80,6 +83,8 @@ impl<R: Real> Fluid<R> {
             frame,
             grid: CellGrid::new(bounds, kernel.support()),
             order: Vec::new(),
+            spare: visit::Spare::default(),
+            near_wall: Selection::default(),
             set: SearchSet::default(),
             rows: Rows::default(),
             wall: WallSide::new(wall, &frame, bounds),
@@ -135,6 +140,9 @@ impl<R: Real> Fluid<R> {
             + self.second.bytes()
             + self.offsets.bytes()
             + self.grid.bytes()
+            + self.spare.bytes()
+            + self.near_wall.bytes()
+            + self.set.bytes()
             + self.columns.bytes()
             + self.frozen.capacity() * size_of::<Frozen<R>>()
             + self.for_momentum.capacity() * size_of::<ForMomentum<R>>()
@@ -154,6 +162,8 @@ impl<R: Real> Fluid<R> {
             frame: _,
             grid: _,
             order: _,
+            spare: _,
+            near_wall: _,
             set: _,
             rows: _,
             wall: _,
@@ -183,7 +193,7 @@ impl<R: Real> Fluid<R> {
     /// Puts the particles in cell order.
     pub fn sort(&mut self) {
         self.grid.sort(&self.state.position, &mut self.order);
-        visit::reorder(&mut self.state, &self.order);
+        visit::reorder(&mut self.state, &self.order, &mut self.spare);
     }
 
     /// Finds neighbours among the sorted particles and measures the distance to the wall.
@@ -244,21 +254,24 @@ impl<R: Real> Fluid<R> {
         self.wall_distance.sample(x)
     }
 
-    /// Record of particle `i` with a scalar in its last field.
-    pub(crate) fn record(&self, i: usize, volume: f64, scalar: f64) -> [R; 8] {
-        let x = self.frame.in_supports(self.state.position[i]);
-        let fixed = self.set.get(i);
-        let v = self.state.velocity[i];
-        [
-            R::coordinate(fixed[0], x[0]),
-            R::coordinate(fixed[1], x[1]),
-            R::coordinate(fixed[2], x[2]),
-            R::pack(volume),
-            R::pack(v.x),
-            R::pack(v.y),
-            R::pack(v.z),
-            R::pack(scalar),
-        ]
+    /// Fills the records that most loops read with the volumes and the scalars of `last`, for a particle each.
+    pub(crate) fn fill_current(&mut self, last: impl Fn(&FluidState, usize) -> [f64; 2] + Sync) {
+        let (state, frame, set) = (&self.state, &self.frame, &self.set);
+        self.current.resize(state.len());
+        self.current.fill(|i| {
+            let (fixed, x, v) = (set.get(i), frame.in_supports(state.position[i]), state.velocity[i]);
+            let [volume, scalar] = last(state, i);
+            [
+                R::coordinate(fixed[0], x[0]),
+                R::coordinate(fixed[1], x[1]),
+                R::coordinate(fixed[2], x[2]),
+                R::pack(volume),
+                R::pack(v.x),
+                R::pack(v.y),
+                R::pack(v.z),
+                R::pack(scalar),
+            ]
+        });
     }
 
     /// Acceleration of particle `i` by viscosity \[m/s^2\], as [`Self::viscosity`] has found it.

@@ -3,7 +3,8 @@
 use crate::cap::CapZone;
 use crate::fluid::{Fluid, first_of};
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real};
+use std::ops::Add;
+use vaso_kernels::{CHUNK, Real, sum_in_order};
 
 /// Sums over particles that give the means of a vessel.
 #[derive(Clone, Copy, Default)]
@@ -18,8 +19,10 @@ pub(crate) struct Sums {
     held_change: f64,
 }
 
-impl Sums {
-    fn plus(self, other: Self) -> Self {
+impl Add for Sums {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
         Self {
             mass: self.mass + other.mass,
             change: self.change + other.change,
@@ -62,27 +65,21 @@ impl<R: Real> Fluid<R> {
     fn sums(&self, zones: &[CapZone]) -> Sums {
         let n = self.state.len();
         let state = &self.state;
-        // In chunks of fixed size and in their order: the same bits for any number of threads.
-        let chunks: Vec<Sums> = (0..n.div_ceil(CHUNK))
-            .into_par_iter()
-            .with_min_len(16)
-            .map(|c| {
-                let mut sums = Sums::default();
-                for i in first_of(c)..n.min(first_of(c + 1)) {
-                    let zone = self.zone_of[i];
-                    let share = if zone == 0 { 1.0 } else { zones[zone as usize - 1].share };
-                    let (mass, change) = (state.mass[i], state.density_change[i]);
-                    sums.held += share * mass;
-                    sums.held_change += share * mass * change;
-                    if !in_buffer(zones, zone) {
-                        sums.mass += mass;
-                        sums.change += mass * change;
-                    }
+        sum_in_order((0..n.div_ceil(CHUNK)).into_par_iter().map(|c| {
+            let mut sums = Sums::default();
+            for i in first_of(c)..n.min(first_of(c + 1)) {
+                let zone = self.zone_of[i];
+                let share = if zone == 0 { 1.0 } else { zones[zone as usize - 1].share };
+                let (mass, change) = (state.mass[i], state.density_change[i]);
+                sums.held += share * mass;
+                sums.held_change += share * mass * change;
+                if !in_buffer(zones, zone) {
+                    sums.mass += mass;
+                    sums.change += mass * change;
                 }
-                sums
-            })
-            .collect();
-        chunks.into_iter().fold(Sums::default(), Sums::plus)
+            }
+            sums
+        }))
     }
 }
 

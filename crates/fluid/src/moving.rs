@@ -5,6 +5,7 @@
 
 use crate::fluid::{Fluid, numbered};
 use crate::law::moving::{self, SurfaceDisplacement, WallContact, WallVelocity};
+use crate::wall::Arrangement;
 use glam::DVec3;
 use rayon::prelude::*;
 use vaso_kernels::{CHUNK, Gather, Real, Records, Store, sweep};
@@ -12,8 +13,8 @@ use vaso_particles::WallView;
 
 /// State of a wall that moves.
 pub(crate) struct Moving<R> {
-    /// Place in the view of each wall particle within reach.
-    pub(crate) source: Vec<u32>,
+    /// The wall particles within reach, as they come in the view.
+    pub(crate) arrangement: Arrangement,
     /// Where each particle of the view is among those within reach; [`OUT_OF_REACH`] for the others.
     pub(crate) place: Vec<u32>,
     /// Where the particles of the view were when the distance to the wall was measured \[m\].
@@ -38,6 +39,9 @@ pub(crate) struct Moving<R> {
     pub(crate) seen: Records<R>,
     /// Sums over the fluid around each wall particle within reach, of which its pressure and its [`Contact`](crate::Contact) are made.
     pub(crate) contact: Vec<[f64; moving::CONTACT_SUMS]>,
+    /// Sums of the viscous force on each wall particle within reach, and what is added to them.
+    pub(crate) drag: Vec<[f64; 3]>,
+    pub(crate) part: Vec<[f64; 3]>,
 }
 
 /// Place of a particle of the view that the fluid does not see.
@@ -70,13 +74,19 @@ impl Wall for AtRest {
 }
 
 impl<R> Moving<R> {
+    /// Place in the view of each wall particle within reach.
+    pub(crate) fn source(&self) -> &[u32] {
+        &self.arrangement.source
+    }
+
     /// Takes accelerations in the order of the view.
     fn accelerate(&mut self, acceleration: &[DVec3]) {
         if acceleration.is_empty() {
             return self.acceleration.clear();
         }
-        self.acceleration.resize(self.source.len(), DVec3::ZERO);
-        let columns = (&mut self.acceleration, &self.source).into_par_iter().with_min_len(1024);
+        let source = &self.arrangement.source;
+        self.acceleration.resize(source.len(), DVec3::ZERO);
+        let columns = (&mut self.acceleration, source).into_par_iter().with_min_len(1024);
         columns.for_each(|(own, &a)| *own = acceleration[a as usize]);
     }
 }
@@ -111,7 +121,7 @@ impl<R: Real> Fluid<R> {
             "an entry a particle"
         );
         self.moving = Some(Box::new(Moving {
-            source: Vec::new(),
+            arrangement: Arrangement::default(),
             place: Vec::new(),
             origin: view.position.to_vec(),
             lever: if thinning == 0.5 { vec![1.0; n] } else { self.levers(view, thinning) },
@@ -124,6 +134,8 @@ impl<R: Real> Fluid<R> {
             correction: Records::default(),
             seen: Records::default(),
             contact: Vec::new(),
+            drag: Vec::new(),
+            part: Vec::new(),
         }));
         self.take_wall(view, &[]);
     }
@@ -158,9 +170,9 @@ impl<R: Real> Fluid<R> {
         let moving = self.moving.as_mut().expect("the wall has been released");
         assert!(view.position.len() == moving.origin.len(), "the particles the wall was released with");
         assert!(acceleration.is_empty() || acceleration.len() == moving.origin.len(), "an entry a particle");
-        moving.source = self.wall.arrange(view, &self.frame);
+        self.wall.arrange(view, &self.frame, &mut moving.arrangement);
         let support = self.frame.support();
-        let Moving { source, place, origin, displaced, .. } = &mut **moving;
+        let Moving { arrangement: Arrangement { source, .. }, place, origin, displaced, .. } = &mut **moving;
         place.clear();
         place.resize(origin.len(), OUT_OF_REACH);
         source.iter().enumerate().for_each(|(k, &a)| place[a as usize] = k as u32);
@@ -182,7 +194,7 @@ impl<R: Real> Fluid<R> {
     pub fn set_wall_velocity(&mut self, velocity: &[DVec3], acceleration: &[DVec3], dt: f64) {
         let Some(moving) = &mut self.moving else { return };
         moving.accelerate(acceleration);
-        let (source, lever) = (&moving.source, &moving.lever);
+        let (source, lever) = (moving.source(), &moving.lever);
         self.wall.dynamic.as_mut_slice().par_iter_mut().zip(source).with_min_len(1024).for_each(
             |(record, &a)| {
                 let v = lever[a as usize] * velocity[a as usize];
@@ -199,11 +211,8 @@ impl<R: Real> Fluid<R> {
     /// Finds displacement and velocity of the wall near each particle, after the rows have been found.
     pub(crate) fn see_wall(&mut self) {
         let n = self.state.len();
-        let mut current = std::mem::take(&mut self.current);
-        current.resize(n);
         // Volumes and the like are filled in by the summation.
-        current.fill(|i| self.record(i, 0.0, 0.0));
-        self.current = current;
+        self.fill_current(|_, _| [0.0; 2]);
         // The normals that the flux wants are known when the acoustic steps begin.
         self.second.resize(n);
         self.second.fill(|_| [R::pack(0.0); 8]);
@@ -303,7 +312,9 @@ impl<R: Real> Fluid<R> {
             + m.bend.capacity();
         size_of::<DVec3>() * vectors
             + 8 * (m.flux.capacity() + m.lever.capacity())
-            + 4 * (m.source.capacity() + m.place.capacity())
+            + 4 * m.place.capacity()
+            + m.arrangement.bytes()
+            + size_of::<[f64; 3]>() * (m.drag.capacity() + m.part.capacity())
             + size_of::<[f64; moving::CONTACT_SUMS]>() * m.contact.capacity()
             + m.displaced.bytes()
             + m.correction.bytes()

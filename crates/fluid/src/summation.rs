@@ -18,13 +18,11 @@ impl<R: Real> Fluid<R> {
     pub fn summation(&mut self, zones: &[CapZone]) {
         let n = self.state.len();
         let rho0 = self.numbers.rest_density;
-        self.current.resize(n);
         self.next.resize(n);
         self.second.resize(n);
-        let mut current = std::mem::take(&mut self.current);
-        current.fill(|i| {
-            let mass = self.state.mass[i];
-            self.record(i, mass / (rho0 + self.state.density_change[i]), mass / rho0)
+        self.fill_current(|state, i| {
+            let mass = state.mass[i];
+            [mass / (rho0 + state.density_change[i]), mass / rho0]
         });
 
         let held = self.sums_to_hold(zones);
@@ -36,11 +34,11 @@ impl<R: Real> Fluid<R> {
         let corrects = self.numbers.gradient_correction;
         let mass = &self.state.mass;
         let (rows, wall) = (&self.rows, &self.wall);
-        let (isa, frame) = (self.isa, &self.frame);
+        let (isa, frame, current) = (self.isa, &self.frame, &self.current);
         let fluid_gather =
-            Gather { frame, own: &current, other: &current, own_second: None, other_second: None };
+            Gather { frame, own: current, other: current, own_second: None, other_second: None };
         let wall_gather =
-            Gather { frame, own: &current, other: &wall.kinematic, own_second: None, other_second: None };
+            Gather { frame, own: current, other: &wall.kinematic, own_second: None, other_second: None };
         (
             self.frozen.par_chunks_mut(CHUNK),
             self.state.density_change.par_chunks_mut(CHUNK),
@@ -89,7 +87,6 @@ impl<R: Real> Fluid<R> {
                     },
                 );
             });
-        self.current = current;
         if let Some(before) = held {
             self.hold_mean(before, zones);
         }

@@ -95,21 +95,22 @@ impl<R: Real> Fluid<R> {
     /// Puts particles that touch the wall back into the lumen and stops their motion towards it.
     pub fn guard(&mut self) -> Guarded {
         let spacing = self.numbers.spacing;
-        let mut found: Vec<(usize, f64, DVec3)> = (0..self.state.len())
-            .into_par_iter()
-            .with_min_len(CHUNK)
+        let mut found = std::mem::take(&mut self.near_wall);
+        let distance = |this: &Self, i: usize| {
+            let moved = this.moving.as_ref().map_or(DVec3::ZERO, |m| m.displacement[i]);
+            this.distance(this.state.position[i] - moved)
+        };
+        let this = &*self;
+        found.find(this.state.len(), |i| {
             // An advective step takes no particle much further than a quarter of a smoothing length. What has come from farther inside
             // all the same stands beyond the wall when the next step measures its distance, and is found at the end of that.
-            .filter(|&i| self.columns.inverse_distance[i].widen() * spacing > NEAR)
-            .filter_map(|i| {
-                let moved = self.moving.as_ref().map_or(DVec3::ZERO, |m| m.displacement[i]);
-                let (phi, gradient) = self.distance(self.state.position[i] - moved);
-                (phi > -PENETRATION * spacing).then_some((i, phi, gradient))
-            })
-            .collect();
-        found.sort_by_key(|f| std::cmp::Reverse(f.0));
+            this.columns.inverse_distance[i].widen() * spacing > NEAR
+                && distance(this, i).0 > -PENETRATION * spacing
+        });
         let mut guarded = Guarded::default();
-        for (i, phi, gradient) in found {
+        // From the end, so that those lost can be removed in this order.
+        for i in found.chosen().iter().rev().map(|&i| i as usize) {
+            let (phi, gradient) = distance(self, i);
             if phi > LOST * spacing {
                 guarded.lost.push(i);
                 continue;
@@ -120,6 +121,7 @@ impl<R: Real> Fluid<R> {
             self.state.velocity[i] -= outward * gradient;
             guarded.returned += 1;
         }
+        self.near_wall = found;
         guarded
     }
 }

@@ -2,7 +2,25 @@
 
 use glam::DVec3;
 use vaso_kernels::{CellGrid, Frame, Isa, Real, Records, Rows, SearchSet};
-use vaso_particles::WallView;
+use vaso_particles::{Selection, WallView};
+
+/// How the particles of a view have been put in cell order; its memory is used again.
+#[derive(Default)]
+pub(crate) struct Arrangement {
+    reachable: Selection,
+    unsorted: Vec<DVec3>,
+    order: Vec<u32>,
+    /// Place in the view of each particle kept.
+    pub(crate) source: Vec<u32>,
+}
+
+impl Arrangement {
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> usize {
+        let lists = self.order.capacity() + self.source.capacity();
+        self.reachable.bytes() + size_of::<DVec3>() * self.unsorted.capacity() + 4 * lists
+    }
+}
 
 /// Wall particles within reach of the fluid.
 pub struct WallSide<R> {
@@ -32,18 +50,19 @@ impl<R: Real> WallSide<R> {
             fluid_rows: Rows::default(),
             wall_rows: Rows::default(),
         };
-        wall.arrange(&view, frame);
+        wall.arrange(&view, frame, &mut Arrangement::default());
         wall
     }
 
-    /// Takes the wall anew, as [`Self::new`]; returns the place in `view` of each particle kept.
-    pub(crate) fn arrange(&mut self, view: &WallView, frame: &Frame) -> Vec<u32> {
-        let reachable: Vec<usize> =
-            (0..view.position.len()).filter(|&a| view.depth[a] < frame.support()).collect();
-        let unsorted: Vec<DVec3> = reachable.iter().map(|&a| view.position[a]).collect();
-        let mut order = Vec::new();
-        self.grid.sort(&unsorted, &mut order);
-        let source: Vec<u32> = order.iter().map(|&k| reachable[k as usize] as u32).collect();
+    /// Takes the wall anew, as [`Self::new`].
+    pub(crate) fn arrange(&mut self, view: &WallView, frame: &Frame, arrangement: &mut Arrangement) {
+        let Arrangement { reachable, unsorted, order, source } = arrangement;
+        let reachable = reachable.find(view.position.len(), |a| view.depth[a] < frame.support());
+        unsorted.clear();
+        unsorted.extend(reachable.iter().map(|&a| view.position[a as usize]));
+        self.grid.sort(unsorted, order);
+        source.clear();
+        source.extend(order.iter().map(|&k| reachable[k as usize]));
         self.position.clear();
         self.position.extend(source.iter().map(|&a| view.position[a as usize]));
         self.set.fill(frame, &self.position);
@@ -68,7 +87,6 @@ impl<R: Real> WallSide<R> {
         };
         pack(&mut self.kinematic, &|a| view.depth[a]);
         pack(&mut self.dynamic, &|_| 0.0);
-        source
     }
 
     /// Finds the rows of the fluid among the wall and of the wall among the fluid.
@@ -101,5 +119,6 @@ impl<R: Real> WallSide<R> {
             + self.fluid_rows.bytes()
             + self.wall_rows.bytes()
             + self.grid.bytes()
+            + self.set.bytes()
     }
 }

@@ -92,30 +92,28 @@ impl<R: Real> Fluid<R> {
             record[7] = columns.inverse_distance[i];
             record
         });
-        let mut drag = self.vectors_on_wall(&DragOnWall, own, &moving);
+        let (mut drag, mut part) = (std::mem::take(&mut moving.drag), std::mem::take(&mut moving.part));
+        self.gather_on_wall(&DragOnWall, own, &moving, &mut drag);
         let bend = &moving.bend;
         show(&mut moving.seen, |i| (bend[i], columns.wall_distance(i)));
-        let bent = self.vectors_on_wall(&BendOnWall, own, &moving);
-        drag.iter_mut().zip(&bent).for_each(|(drag, bent)| *drag -= *bent);
+        self.gather_on_wall(&BendOnWall, own, &moving, &mut part);
+        for (drag, bent) in drag.iter_mut().zip(&part) {
+            (0..3).for_each(|axis| drag[axis] -= bent[axis]);
+        }
         for axis in 0..3 {
             // Near caps what a linear velocity adds is left in, see `viscosity`.
             let column = |i: usize| if zone_of[i] == 0 { slope[i].col(axis) } else { DVec3::ZERO };
             show(&mut moving.seen, |i| (column(i), 0.0));
-            let lean = self.vectors_on_wall(&LeanOnWall, own, &moving);
-            drag.iter_mut().zip(&lean).for_each(|(drag, lean)| drag[axis] += support * lean.x);
+            self.gather_on_wall(&LeanOnWall, own, &moving, &mut part);
+            drag.iter_mut().zip(&part).for_each(|(drag, lean)| drag[axis] += support * lean[0]);
         }
         let scale = self.kernel.gradient_scale() / support;
         force.fill(DVec3::ZERO);
-        for ((&a, record), drag) in moving.source.iter().zip(own.as_slice()).zip(&drag) {
-            force[a as usize] = scale * record[3].widen() * *drag;
+        for ((&a, record), drag) in moving.source().iter().zip(own.as_slice()).zip(&drag) {
+            force[a as usize] = scale * record[3].widen() * DVec3::from_array(*drag);
         }
+        (moving.drag, moving.part) = (drag, part);
         self.moving = Some(moving);
-    }
-
-    fn vectors_on_wall(&self, law: &impl PairLaw<R, 3>, own: &Records<R>, moving: &Moving<R>) -> Vec<DVec3> {
-        let mut sums = Vec::new();
-        self.gather_on_wall::<3>(law, own, moving, &mut sums);
-        sums.into_iter().map(DVec3::from_array).collect()
     }
 
     /// Writes the sums of a law over the rows of the wall, among the fluid as it is seen.

@@ -4,6 +4,7 @@
 
 pub mod frame;
 pub mod grid;
+pub mod in_order;
 pub mod isa;
 pub mod lanes;
 pub mod links;
@@ -16,6 +17,7 @@ pub mod wendland;
 
 pub use frame::Frame;
 pub use grid::CellGrid;
+pub use in_order::{reduce_in_order, sum_in_order};
 pub use isa::{Isa, run_on};
 pub use lanes::{FIELDS, Lanes, Real};
 pub use links::{LinkLaw, LinkStore, sweep_links};

@@ -45,6 +45,11 @@ impl SearchSet {
         self.n == 0
     }
 
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        4 * self.axis.iter().map(Vec::capacity).sum::<usize>()
+    }
+
     /// Fixed-point coordinates of particle `i`.
     pub fn get(&self, i: usize) -> [i32; 3] {
         [self.axis[0][i], self.axis[1][i], self.axis[2][i]]

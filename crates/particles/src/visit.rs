@@ -48,18 +48,58 @@ macro_rules! for_all_columns {
     };
 }
 
+/// Columns that [`reorder`] writes into before they take the place of others; kept, so that they are not allocated in every step.
+#[derive(Clone, Debug, Default)]
+pub struct Spare {
+    scalar: Vec<f64>,
+    vector: Vec<DVec3>,
+    integer: Vec<u64>,
+    label: Vec<i32>,
+}
+
+impl Spare {
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        8 * (self.scalar.capacity() + self.integer.capacity())
+            + size_of::<DVec3>() * self.vector.capacity()
+            + 4 * self.label.capacity()
+    }
+}
+
 /// Permutes all columns: entry `k` becomes the former entry `order[k]`.
-pub fn reorder(body: &mut impl Columns, order: &[u32]) {
-    struct Reorder<'a>(&'a [u32]);
-    impl Reorder<'_> {
-        fn apply<T: Copy + Send + Sync>(&self, column: &mut Column<T>) {
-            let data = column.vec_mut();
-            let sorted = self.0.par_iter().with_min_len(4096).map(|&old| data[old as usize]).collect();
-            *data = sorted;
+pub fn reorder(body: &mut impl Columns, order: &[u32], spare: &mut Spare) {
+    struct Reorder<'a>(&'a [u32], &'a mut Spare);
+    fn apply<T: Copy + Send + Sync>(order: &[u32], column: &mut Column<T>, spare: &mut Vec<T>) {
+        let data = column.vec_mut();
+        spare.clear();
+        make_room(spare, order.len());
+        let sorted = order.par_iter().with_min_len(4096).map(|&old| data[old as usize]);
+        sorted.collect_into_vec(spare);
+        std::mem::swap(data, spare);
+    }
+    impl Visitor for Reorder<'_> {
+        fn scalar(&mut self, column: &mut Column<f64>) {
+            apply(self.0, column, &mut self.1.scalar);
+        }
+        fn vector(&mut self, column: &mut Column<DVec3>) {
+            apply(self.0, column, &mut self.1.vector);
+        }
+        fn integer(&mut self, column: &mut Column<u64>) {
+            apply(self.0, column, &mut self.1.integer);
+        }
+        fn label(&mut self, column: &mut Column<i32>) {
+            apply(self.0, column, &mut self.1.label);
         }
     }
-    for_all_columns!(Reorder<'_>, |this, column| this.apply(column));
-    body.visit(&mut Reorder(order));
+    body.visit(&mut Reorder(order, spare));
+}
+
+/// Room for `more` entries. Columns that double when they are full would hold as much of nothing; a sixteenth more is room for those who
+/// come in.
+fn make_room<T>(column: &mut Vec<T>, more: usize) {
+    if column.capacity() - column.len() < more {
+        column.reserve_exact(more + (column.len() + more) / 16);
+    }
 }
 
 /// Appends a copy of particle `i` to all columns.
@@ -67,6 +107,7 @@ pub fn append_copy(body: &mut impl Columns, i: usize) {
     struct Append(usize);
     for_all_columns!(Append, |this, column| {
         let value = column[this.0];
+        make_room(column.vec_mut(), 1);
         column.vec_mut().push(value);
     });
     body.visit(&mut Append(i));
@@ -155,7 +196,7 @@ mod tests {
     #[test]
     fn all_columns_move_together() {
         let mut body = body();
-        reorder(&mut body, &[2, 0, 3, 1]);
+        reorder(&mut body, &[2, 0, 3, 1], &mut Spare::default());
         append_copy(&mut body, 1);
         swap_remove(&mut body, 0);
         assert_eq!(&body.m[..], &[0.0, 0.0, 3.0, 1.0]);

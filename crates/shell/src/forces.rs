@@ -11,10 +11,11 @@ use crate::section::{Layer, Motion};
 use crate::spread::Stretch;
 use crate::state::ShellState;
 use glam::{DMat3, DVec3};
+use rayon::iter::Either;
 use rayon::prelude::*;
 use vaso_kernels::{
-    BLOCK, BlockColumn, CHUNK, FIELDS, Gather, Isa, Real, Records, Store, run_on, sweep, sweep_links,
-    sweep_points,
+    BLOCK, BlockColumn, CHUNK, FIELDS, Gather, Isa, Real, Records, Store, reduce_in_order, run_on, sweep,
+    sweep_links, sweep_points,
 };
 
 /// Working memory of a shell.
@@ -215,9 +216,12 @@ impl<R: Real> Forces<R> {
         let damping = if self.strain.is_empty() { 0.0 } else { numbers.damping };
         let section = Section::new(material, damping, dt);
         let per_chunk = CHUNK / BLOCK;
-        let mut strains: Vec<&mut [[BlockColumn; 8]]> = self.strain.chunks_mut(per_chunk).collect();
-        strains.resize_with(reference.rows.chunks().len(), Default::default);
-        let chunks: Vec<Result<f64, usize>> = self
+        let strains = if self.strain.is_empty() {
+            Either::Left((0..reference.rows.chunks().len()).into_par_iter().map(|_| Default::default()))
+        } else {
+            Either::Right(self.strain.par_chunks_mut(per_chunk))
+        };
+        let power = self
             .own
             .par_chunks_mut(CHUNK)
             .zip(self.force.as_mut_slice().par_chunks_mut(CHUNK))
@@ -225,7 +229,7 @@ impl<R: Real> Forces<R> {
             .zip(strains)
             .zip(reference.rows.chunks())
             .enumerate()
-            .map(|(c, ((((own, force), moment), strains), row))| {
+            .map(|(c, ((((own, force), moment), strains), row))| -> Result<f64, usize> {
                 let mut sums = [[0.0; 12]; CHUNK];
                 if modulus > 0.0 {
                     let stored = Store::Read(&reference.hourglass.chunks()[c]);
@@ -284,17 +288,12 @@ impl<R: Real> Forces<R> {
                     );
                 }
                 Ok(power)
-            })
-            .collect();
-        let mut power = 0.0;
-        for chunk in chunks {
-            power += chunk.map_err(|i| ShellError::Inverted {
-                particle: state.id[i],
-                position: state.position(i),
-                determinant: (DMat3::IDENTITY + gradient[i]).determinant(),
-            })?;
-        }
-        Ok(power)
+            });
+        reduce_in_order(power, |a, b| Ok(a? + b?)).unwrap_or(Ok(0.0)).map_err(|i| ShellError::Inverted {
+            particle: state.id[i],
+            position: state.position(i),
+            determinant: (DMat3::IDENTITY + gradient[i]).determinant(),
+        })
     }
 
     /// Accelerations by the divergence of the resultants.

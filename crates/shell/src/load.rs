@@ -4,7 +4,7 @@ use crate::forces::{Forces, across};
 use crate::state::ShellState;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real};
+use vaso_kernels::{CHUNK, Real, sum_in_order};
 
 /// Pressure on particles, which follows their area.
 pub(crate) struct Pressure {
@@ -115,7 +115,7 @@ impl Loads {
         if damping.is_empty() {
             return 0.0;
         }
-        let taken: Vec<f64> = (state.velocity.par_chunks_mut(CHUNK), state.mass.par_chunks(CHUNK))
+        let taken = (state.velocity.par_chunks_mut(CHUNK), state.mass.par_chunks(CHUNK))
             .into_par_iter()
             .zip(damping.par_chunks(CHUNK))
             .map(|((velocity, mass), damping)| {
@@ -124,10 +124,9 @@ impl Loads {
                     *v = before / (1.0 + dt * damping / mass);
                     0.5 * mass * (before.length_squared() - v.length_squared())
                 };
-                velocity.iter_mut().zip(mass).zip(damping).map(of).sum()
-            })
-            .collect();
-        taken.iter().sum()
+                velocity.iter_mut().zip(mass).zip(damping).map(of).sum::<f64>()
+            });
+        sum_in_order(taken)
     }
 
     /// Notes the velocities that the fluid has answered with its force.

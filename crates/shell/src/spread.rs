@@ -7,8 +7,8 @@
 use crate::error::ShellError;
 use crate::forces::Forces;
 use crate::law::{DISPLACEMENT_UNIT, Slope, Tension};
-use crate::reference::Base;
-use crate::section::Present;
+use crate::reference::{Base, Reference};
+use crate::section::{Motion, Present};
 use crate::shell::Shell;
 use crate::state::ShellState;
 use glam::DVec3;
@@ -35,13 +35,24 @@ impl Stretch {
     }
 }
 
+/// Area of particle `i`, from those that are `known` or anew.
+fn stretch<R>(
+    known: &[Stretch],
+    reference: &Reference<R>,
+    motion: &[Motion],
+    state: &ShellState,
+    i: usize,
+) -> Stretch {
+    if let Some(known) = known.get(i) {
+        return *known;
+    }
+    let base = &reference.base[i];
+    Stretch::new(base, &Present::new(base, &motion[i], state.director[i]).g)
+}
+
 impl<R: Real> Forces<R> {
     fn stretch(&self, state: &ShellState, i: usize) -> Stretch {
-        if let Some(known) = self.stretch.get(i) {
-            return *known;
-        }
-        let base = &self.reference.base[i];
-        Stretch::new(base, &Present::new(base, &self.motion[i], state.director[i]).g)
+        stretch(&self.stretch, &self.reference, &self.motion, state, i)
     }
 
     /// Writes the rates of the area strain \[1/s\], and keeps the areas until the shell moves on. Velocities are taken over the time `dt`
@@ -82,29 +93,27 @@ impl<R: Real> Forces<R> {
 
     /// Adds to `force` \[N\] those of loads whose work on an area strain of one is `spread` \[J\].
     fn spread(&mut self, state: &ShellState, spread: &[f64], force: &mut [DVec3]) {
-        let (mut tension, mut records) = (std::mem::take(&mut self.own), std::mem::take(&mut self.force));
-        let this = &*self;
-        (&mut tension, records.as_mut_slice()).into_par_iter().enumerate().with_min_len(1024).for_each(
+        let Self { own: tension, force: records, stretch: known, reference, motion, isa, .. } = self;
+        (&mut *tension, records.as_mut_slice()).into_par_iter().enumerate().with_min_len(1024).for_each(
             |(i, (tension, record))| {
                 let by_area = -spread[i] / state.area[i];
-                let Stretch { by_base: [a, b], .. } = this.stretch(state, i);
+                let Stretch { by_base: [a, b], .. } = stretch(known, reference, motion, state, i);
                 *tension = [by_area * a, by_area * b];
                 let [a, b] = *tension;
                 *record = [a.x, a.y, a.z, b.x, b.y, b.z, 0.0, 0.0].map(R::pack);
             },
         );
-        let reference = &this.reference;
+        let (isa, records) = (*isa, &*records);
         force.par_chunks_mut(CHUNK).zip(reference.rows.chunks()).enumerate().for_each(|(c, (force, row))| {
             let mut sums = [[0.0; 3]; CHUNK];
             let stored = &reference.backward.chunks()[c];
-            sweep_links(this.isa, &Tension, (&records, None), (row, c * CHUNK), stored, &mut sums);
+            sweep_links(isa, &Tension, (records, None), (row, c * CHUNK), stored, &mut sums);
             for (k, force) in force.iter_mut().enumerate() {
                 let i = c * CHUNK + k;
                 let ([w0, w1], [t0, t1]) = (reference.own[i], tension[i]);
                 *force += state.area[i] * (w0 * t0 + w1 * t1 + DVec3::from_array(sums[k]));
             }
         });
-        (self.own, self.force) = (tension, records);
     }
 }
 

@@ -7,7 +7,7 @@ use crate::shell::Shell;
 use crate::support::numbered;
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real, run_on};
+use vaso_kernels::{CHUNK, Real, run_on, sum_in_order};
 use vaso_particles::{WallMotion, WallView};
 
 /// `sin(x) / x` and `cos(x)` of the square of `x`. Directors turn by little a step, where series are exact and cheap.
@@ -161,7 +161,7 @@ impl<R: Real> Shell<R> {
         let (acceleration, angular) = (&state.acceleration, &state.director_acceleration);
         let (support, director) = (&state.support, &state.director);
         let (mass, inertia) = (&state.mass, &state.rotary_inertia);
-        let work: Vec<f64> = state
+        let work = state
             .velocity
             .par_chunks_mut(CHUNK)
             .zip(state.director_velocity.par_chunks_mut(CHUNK))
@@ -185,9 +185,8 @@ impl<R: Real> Shell<R> {
                     },
                 );
                 0.5 * dt * work
-            })
-            .collect();
-        self.ledger.load_work += work.iter().sum::<f64>();
+            });
+        self.ledger.load_work += sum_in_order(work);
         self.ledger.dissipation += self.loads.damp(state, dt);
     }
 

@@ -5,7 +5,7 @@ use crate::numbers::Numbers;
 use crate::state::SolidState;
 use glam::DMat3;
 use rayon::prelude::*;
-use vaso_kernels::CHUNK;
+use vaso_kernels::{CHUNK, sum_in_order};
 use vaso_particles::Visitor;
 
 /// Strain, stress and forces of a body. Each call covers all particles; what runs per pair is known to the compiler.
@@ -41,9 +41,6 @@ pub(crate) trait Formulation: Send + Sync {
 
 /// Sum over particles in an order that does not depend on threads.
 pub(crate) fn total(n: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let chunks: Vec<f64> = (0..n.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|c| (c * CHUNK..n.min((c + 1) * CHUNK)).map(&term).sum())
-        .collect();
-    chunks.iter().sum()
+    let of_chunk = |c: usize| (c * CHUNK..n.min((c + 1) * CHUNK)).map(&term).sum::<f64>();
+    sum_in_order((0..n.div_ceil(CHUNK)).into_par_iter().map(of_chunk))
 }

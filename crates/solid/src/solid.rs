@@ -93,7 +93,7 @@ impl<R: Real> Solid<R> {
         let kernel = Wendland::new(numbers.smoothing_length);
         let arrangement = Arrangement::new(particles.position, &kernel, particles.period, isa);
         let mut state = SolidState::at_rest(particles.position, particles.volume, numbers.density);
-        visit::reorder(&mut state, &arrangement.order);
+        visit::reorder(&mut state, &arrangement.order, &mut visit::Spare::default());
         let mut place = vec![0; n];
         for (new, &old) in arrangement.order.iter().enumerate() {
             place[old as usize] = new as u32;

@@ -4,7 +4,7 @@ use crate::error::SolidError;
 use crate::solid::{Solid, held};
 use glam::DVec3;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Real, run_on};
+use vaso_kernels::{CHUNK, Real, run_on, sum_in_order};
 use vaso_particles::{WallMotion, WallView};
 
 impl<R: Real> Solid<R> {
@@ -118,30 +118,27 @@ impl<R: Real> Solid<R> {
         let (isa, external, planes) = (self.isa, &self.loads.acceleration, &self.planes);
         let state = &mut self.state;
         let (support, mass) = (&state.support, &state.mass);
-        let work: Vec<f64> = state
-            .velocity
-            .par_chunks_mut(CHUNK)
-            .zip(state.acceleration.par_chunks(CHUNK))
-            .enumerate()
-            .map(|(c, (velocity, acceleration))| {
-                let mut work = 0.0;
-                run_on(
-                    isa,
-                    #[inline(always)]
-                    || {
-                        for (k, (v, a)) in velocity.iter_mut().zip(acceleration).enumerate() {
-                            let i = c * CHUNK + k;
-                            let external = external.get(i).copied().unwrap_or_default();
-                            let new = held(*v + dt * (*a + external), support[i], planes);
-                            work += mass[i] * external.dot(*v + new);
-                            *v = new;
-                        }
-                    },
-                );
-                0.5 * dt * work
-            })
-            .collect();
-        self.ledger.load_work += work.iter().sum::<f64>();
+        let work =
+            state.velocity.par_chunks_mut(CHUNK).zip(state.acceleration.par_chunks(CHUNK)).enumerate().map(
+                |(c, (velocity, acceleration))| {
+                    let mut work = 0.0;
+                    run_on(
+                        isa,
+                        #[inline(always)]
+                        || {
+                            for (k, (v, a)) in velocity.iter_mut().zip(acceleration).enumerate() {
+                                let i = c * CHUNK + k;
+                                let external = external.get(i).copied().unwrap_or_default();
+                                let new = held(*v + dt * (*a + external), support[i], planes);
+                                work += mass[i] * external.dot(*v + new);
+                                *v = new;
+                            }
+                        },
+                    );
+                    0.5 * dt * work
+                },
+            );
+        self.ledger.load_work += sum_in_order(work);
         self.ledger.dissipation += self.loads.damp(state, dt);
     }
 

@@ -13,8 +13,9 @@ use crate::points::{Constants, Points};
 use crate::reference::Reference;
 use crate::state::SolidState;
 use glam::{DMat3, DVec3};
+use rayon::iter::Either;
 use rayon::prelude::*;
-use vaso_kernels::{CHUNK, Gather, Isa, Real, Records, Store, run_on, sweep};
+use vaso_kernels::{CHUNK, Gather, Isa, Real, Records, Store, reduce_in_order, run_on, sum_in_order, sweep};
 use vaso_particles::Visitor;
 
 /// Working memory of a total-Lagrangian body.
@@ -106,7 +107,7 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
         let damped = !self.damping.is_empty();
         let rows = reference.rows.chunks();
         let (fibres, kinematic) = (&self.fibres, self.kinematic.as_slice());
-        let chunks: Vec<Result<f64, usize>> = self
+        let power = self
             .gradient
             .par_chunks_mut(CHUNK)
             .zip(self.dynamic.as_mut_slice()[..n].par_chunks_mut(CHUNK))
@@ -140,19 +141,15 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
                     points.pass(isa, &sums)
                 };
                 power.map_err(|k| range.start + k)
-            })
-            .collect();
+            });
+        let power = reduce_in_order(power, |a, b| Ok(a? + b?)).unwrap_or(Ok(0.0));
         self.reference.copy_to_images(&mut self.dynamic, 4);
         self.reference.copy_to_images(&mut self.matrix, 0);
-        let mut power = 0.0;
-        for chunk in chunks {
-            power += chunk.map_err(|i| SolidError::Inverted {
-                particle: state.id[i],
-                position: state.position(i),
-                determinant: self.deformation(i).determinant(),
-            })?;
-        }
-        Ok(power)
+        power.map_err(|i| SolidError::Inverted {
+            particle: state.id[i],
+            position: state.position(i),
+            determinant: self.deformation(i).determinant(),
+        })
     }
 
     /// Packs the displacement gradients where the pair loops find matrices.
@@ -201,19 +198,14 @@ impl<R: Real, E: Elastic> TotalLagrangian<R, E> {
         // 1/4 sum V_a V_b k E (s u^3 / H) H^2 |u_ab - G_a X_ab|^2.
         let scale = 0.25 * modulus * reference.kernel.gradient_scale() * reference.kernel.support();
         let gather = matrices(reference, &self.dynamic, &self.matrix);
-        let chunks: Vec<f64> = reference
-            .rows
-            .chunks()
-            .par_iter()
-            .zip(volume.par_chunks(CHUNK))
-            .enumerate()
-            .map(|(c, (row, volume))| {
+        let energy = reference.rows.chunks().par_iter().zip(volume.par_chunks(CHUNK)).enumerate().map(
+            |(c, (row, volume))| {
                 let mut sums = [[0.0; 1]; CHUNK];
                 sweep(isa, &HourglassEnergy, &gather, (row, c * CHUNK), Store::None, &mut sums);
                 volume.iter().zip(sums).map(|(v, [s])| scale * v * s).sum::<f64>()
-            })
-            .collect();
-        chunks.iter().sum()
+            },
+        );
+        sum_in_order(energy)
     }
 }
 
@@ -323,7 +315,9 @@ fn chunks_or_none<T: Send>(
     column: &mut [T],
     n_chunks: usize,
 ) -> impl IndexedParallelIterator<Item = &mut [T]> {
-    let mut chunks: Vec<&mut [T]> = column.chunks_mut(CHUNK).collect();
-    chunks.resize_with(n_chunks, Default::default);
-    chunks.into_par_iter()
+    if column.is_empty() {
+        Either::Left((0..n_chunks).into_par_iter().map(|_| Default::default()))
+    } else {
+        Either::Right(column.par_chunks_mut(CHUNK))
+    }
 }

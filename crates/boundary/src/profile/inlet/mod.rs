@@ -94,7 +94,8 @@ impl Inlet {
 
     /// Velocity at the in-plane point `at` \[m\] and the time `t` \[s\], if `mean` is what the profile was made for \[m/s\].
     pub fn velocity(&self, at: [f64; 2], mean: &Signal, t: f64) -> f64 {
-        let amplitudes = self.amplitudes(mean, t);
+        let mut amplitudes = Amplitudes::default();
+        self.set_amplitudes(mean, t, &mut amplitudes);
         let waves: Complex64 = self.waves(at).zip(&amplitudes.waves).map(|(w, a)| w * a).sum();
         amplitudes.steady * self.steady(at) + waves.re
     }
@@ -142,20 +143,21 @@ impl Inlet {
         memory.fields(&format!("{name}.wave_factors"), &mut parts);
     }
 
-    /// How much of each shape flows at `t` \[s\], the factors included.
-    pub(crate) fn amplitudes(&self, mean: &Signal, t: f64) -> Amplitudes {
+    /// Notes how much of each shape flows at `t` \[s\], the factors included.
+    pub(crate) fn set_amplitudes(&self, mean: &Signal, t: f64, amplitudes: &mut Amplitudes) {
+        let waves = &mut amplitudes.waves;
+        waves.clear();
         let Some(series) = &self.series else {
-            return Amplitudes { steady: mean.at(t) * self.factor, waves: Vec::new() };
+            amplitudes.steady = mean.at(t) * self.factor;
+            return;
         };
         let risen = mean.risen(t);
         let mut steady = risen * series.mean;
         let turns = (t / series.period).rem_euclid(1.0);
-        let mut waves: Vec<Complex64> = (0..self.waves.len())
-            .map(|k| {
-                let phase = TAU * turns * (k + 1) as f64;
-                risen * Complex64::new(series.cosine[k], -series.sine[k]) * Complex64::from_polar(1.0, phase)
-            })
-            .collect();
+        waves.extend((0..self.waves.len()).map(|k| {
+            let phase = TAU * turns * (k + 1) as f64;
+            risen * Complex64::new(series.cosine[k], -series.sine[k]) * Complex64::from_polar(1.0, phase)
+        }));
         let rest = mean.at(t) - risen * series.at(t);
         match waves.last_mut() {
             Some(last) => *last += rest,
@@ -164,7 +166,7 @@ impl Inlet {
         for (wave, factor) in waves.iter_mut().zip(&self.wave_factors) {
             *wave *= factor;
         }
-        Amplitudes { steady: steady * self.factor, waves }
+        amplitudes.steady = steady * self.factor;
     }
 }
 
