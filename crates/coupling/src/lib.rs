@@ -2,6 +2,7 @@
 
 mod columns;
 mod coupling;
+mod no_wall;
 mod ownership;
 mod prescribed;
 mod shell_wall;
@@ -9,6 +10,7 @@ mod wall;
 
 pub use columns::{Foot, GhostColumns};
 pub use coupling::Coupling;
+pub use no_wall::NoWall;
 pub use prescribed::Prescribed;
 pub use shell_wall::ShellWall;
 pub use wall::{CouplingError, Facet, MovingWall, NO_FACET};

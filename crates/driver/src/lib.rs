@@ -14,6 +14,7 @@ pub mod extrusion;
 mod fibers;
 pub mod flow;
 mod kept;
+pub mod kind;
 pub mod ledger;
 mod machine;
 pub mod new;

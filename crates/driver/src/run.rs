@@ -5,6 +5,7 @@ use crate::checkpoint::{self, Checkpoint, Due, Ending, Origin, Surroundings};
 use crate::deforming::Deforming;
 use crate::error::DriverError;
 use crate::flow::{Diverged, Flow};
+use crate::kind::{OfKind, with_kind};
 use crate::ledger::Stage;
 use crate::plan::Plan;
 use crate::print;
@@ -14,11 +15,9 @@ use crate::world::{Bodies, build_flow_in};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
-use vaso_coupling::{MovingWall, ShellWall};
+use vaso_coupling::MovingWall;
 use vaso_fluid::Real;
 use vaso_io::{EndReason, OutputDir, SeriesWriter, Status, Summary};
-use vaso_scene::{Precision, Wall};
-use vaso_solid::Solid;
 
 /// How a command talks to the person.
 pub struct Talk {
@@ -92,13 +91,23 @@ pub(crate) fn go(
         talk.say(&format!("warning  {notice}"));
         plan.warnings.push(notice.clone());
     }
-    let run = match (plan.precision, matches!(case.scene.wall, Wall::Shell(_))) {
-        (Precision::Mixed, false) => run_kind::<f32, Solid<f32>>,
-        (Precision::Double, false) => run_kind::<f64, Solid<f64>>,
-        (Precision::Mixed, true) => run_kind::<f32, ShellWall<f32>>,
-        (Precision::Double, true) => run_kind::<f64, ShellWall<f64>>,
-    };
-    run(Job { case, plan: &plan, out, start, stop, talk, started }, bodies, progress)
+    let job = Job { case, plan: &plan, out, start, stop, talk, started };
+    with_kind(case, &plan, Go { job, bodies, progress })
+}
+
+/// A run that is to be made.
+struct Go<'a> {
+    job: Job<'a>,
+    bodies: Bodies,
+    progress: Progress,
+}
+
+impl OfKind for Go<'_> {
+    type Done = Result<Summary, DriverError>;
+
+    fn of<R: Real, W: Deforming + Send + 'static>(self) -> Self::Done {
+        run_kind::<R, W>(self.job, self.bodies, self.progress)
+    }
 }
 
 /// All that belongs to a run but its particles.

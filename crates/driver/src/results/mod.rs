@@ -20,6 +20,7 @@ use vaso_particles::{Memory, WallView};
 
 mod account;
 mod frames;
+mod no_wall;
 mod shell;
 mod solid;
 mod standing;
