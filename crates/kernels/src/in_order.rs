@@ -7,7 +7,7 @@ use std::ops::Add;
 /// Combines the items of `items` two by two in a tree whose shape depends on their number alone: the same bits for any number of threads.
 /// Nothing is allocated, unlike by sums that are collected first. `None` of no items.
 ///
-/// There are [`LEAVES`] tasks at most.
+/// They are shared among some hundred tasks at most.
 pub fn reduce_in_order<I: IndexedParallelIterator>(
     items: I,
     combine: impl Fn(I::Item, I::Item) -> I::Item + Sync,
@@ -16,7 +16,7 @@ pub fn reduce_in_order<I: IndexedParallelIterator>(
     items.with_producer(Tree { n, leaf: n.div_ceil(LEAVES), combine: &combine })
 }
 
-/// Tasks that the items are shared among: enough for some dozens of threads, and so few that handing them over costs nothing.
+/// Tasks that many items are shared among, about: enough for some dozens of threads, and so few that handing them over costs nothing.
 const LEAVES: usize = 128;
 
 /// [`reduce_in_order`] by addition; zero of no items.
