@@ -10,7 +10,7 @@ from pathlib import Path
 from . import readme
 from .case import Case, NoRun, Skipped
 
-CASES = ["aneurysm", "aorta", "carotid", "common-carotid", "curved-tube", "elastic-tube", "fda-nozzle", "pipe", "stenosis", "womersley"]
+CASES = ["aneurysm", "aorta", "carotid", "common-carotid", "curved-tube", "elastic-stenosis", "elastic-tube", "fda-nozzle", "pipe", "stenosis", "womersley"]
 
 
 def main() -> int:

@@ -15,6 +15,17 @@ PROBES = {"axis": 0.0, "half": 1.5e-3, "outer": 2.25e-3}
 NAMES = {"axis": "on the axis", "half": "at 1.5 mm", "outer": "at 2.25 mm"}
 
 
+def grown(young: float, inner: float, thickness: float, pressure: float) -> float:
+    """Radius of the lumen [m] of a thick neo-Hookean tube in plane strain, `inner` at rest, whose wall keeps its volume (Rivlin 1949)."""
+    outer = inner + thickness
+
+    def load(square: float) -> float:
+        a, b = np.sqrt(1.0 + square / inner**2), np.sqrt(1.0 + square / outer**2)
+        return young / 3.0 * (np.log(a / b) + 0.5 * (b**-2 - a**-2)) - pressure
+
+    return float(np.sqrt(inner**2 + brentq(load, 0.0, 3.0 * inner**2)))
+
+
 class Tube:
     """A tube of incompressible rubber, held in its length, with a creeping flow [m^3/s] through it."""
 
@@ -24,19 +35,12 @@ class Tube:
     def lumen(self, pressure: float) -> float:
         """Radius of the lumen [m] under a pressure [Pa], far from the ends.
 
-        It is that of a thick neo-Hookean tube in plane strain whose wall keeps its volume (Rivlin 1949), with what a tube of finite length widens more:
-        next to ends that are held the wall widens less, as much as over a length `1/b` not at all, `b^4 = 3 (1 - nu^2) / (R t)^2` (Timoshenko and
+        It is that of a tube in plane strain, with what a tube of finite length widens more: next to ends that are held the wall widens less, as much as over a length `1/b` not at all, `b^4 = 3 (1 - nu^2) / (R t)^2` (Timoshenko and
         Woinowsky-Krieger 1959, chapter 15). There it contracts less along the axis, and so more in between.
         """
-        inner, outer = RADIUS, RADIUS + self.thickness
-
-        def load(grown: float) -> float:
-            a, b = np.sqrt(1.0 + grown / inner**2), np.sqrt(1.0 + grown / outer**2)
-            return self.young / 3.0 * (np.log(a / b) + 0.5 * (b**-2 - a**-2)) - pressure
-
-        plane = np.sqrt(inner**2 + brentq(load, 0.0, 3.0 * inner**2)) - inner
-        held = np.sqrt(0.5 * (inner + outer) * self.thickness) / (3.0 * 0.75) ** 0.25
-        return float(inner + plane / (1.0 - 0.25 * 2.0 * held / LENGTH))
+        plane = grown(self.young, RADIUS, self.thickness, pressure) - RADIUS
+        held = np.sqrt((RADIUS + 0.5 * self.thickness) * self.thickness) / (3.0 * 0.75) ** 0.25
+        return float(RADIUS + plane / (1.0 - 0.25 * 2.0 * held / LENGTH))
 
     def pressure(self, z: np.ndarray) -> np.ndarray:
         """Pressure [Pa] along the axis, from that at the outlet: `dp/dz = -8 mu Q / (pi a^4)` (Fung, Biomechanics: Circulation, 1997, section 3.4)."""
@@ -90,12 +94,12 @@ def surface(exact: Tube, pressure: float) -> float:
     return float(np.sqrt(middle**2 + exact.lumen(pressure) ** 2 - RADIUS**2) - middle)
 
 
-def widening(case: Case, frame) -> tuple[np.ndarray, np.ndarray]:
-    """Places along the axis [m], one a spacing, and mean displacement away from it [m]."""
+def widening(case: Case, frame, start: float = 0.0, length: float = LENGTH) -> tuple[np.ndarray, np.ndarray]:
+    """Places along the axis [m], one a spacing from `start` over a `length`, and mean displacement away from it [m]."""
     moved = frame["Displacement"].astype(float)
     place = frame.position.astype(float) - moved
     out = place[:, :2] / np.linalg.norm(place[:, :2], axis=1, keepdims=True)
-    ring = np.clip((place[:, 2] / case.spacing).astype(int), 0, int(LENGTH / case.spacing) - 1)
+    ring = np.clip(((place[:, 2] - start) / case.spacing).astype(int), 0, int(length / case.spacing) - 1)
     n = np.bincount(ring)
     sums, places = np.bincount(ring, (moved[:, :2] * out).sum(axis=1)), np.bincount(ring, place[:, 2])
     return places[n > 0] / n[n > 0], sums[n > 0] / n[n > 0]

@@ -21,16 +21,16 @@ def radius(z):
     return RADIUS - np.where(np.abs(z) < 0.5 * LENGTH, narrowing, 0.0)
 
 
-def friction(flow: float, viscosity: float, z0: float, z1: float) -> float:
-    """Drop of pressure [Pa] by Poiseuille's law along the wall."""
+def friction(flow: float, viscosity: float, z0: float, z1: float, of=radius) -> float:
+    """Drop of pressure [Pa] by Poiseuille's law along a wall whose radius at a place is `of` it."""
     z = np.linspace(z0, z1, 4001)
-    return float(np.trapezoid(8.0 * viscosity * flow / (np.pi * radius(z) ** 4), z))
+    return float(np.trapezoid(8.0 * viscosity * flow / (np.pi * of(z) ** 4), z))
 
 
-def widening(flow: float, density: float) -> list[float]:
-    """Bounds of what the jet loses as it widens [Pa]."""
-    u = flow / (np.pi * RADIUS**2)
-    return [k * 0.5 * density * u**2 * ((RADIUS / THROAT) ** 2 - 1.0) ** 2 for k in LOSS]
+def widening(flow: float, density: float, wide: float = RADIUS, throat: float = THROAT) -> list[float]:
+    """Bounds of what the jet loses as it widens from one radius [m] to another [Pa]."""
+    u = flow / (np.pi * wide**2)
+    return [k * 0.5 * density * u**2 * ((wide / throat) ** 2 - 1.0) ** 2 for k in LOSS]
 
 
 def seeley_young(flow: float, density: float, viscosity: float) -> float:

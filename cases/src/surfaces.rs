@@ -25,6 +25,7 @@ pub fn surfaces() -> Vec<CaseSurface> {
         mm("carotid/carotid.stl", bifurcation(&BifurcationSpec::default())),
         mm("common-carotid/common-carotid.stl", pipe(3e-3, 126e-3, DVec3::Z, 40)),
         mm("curved-tube/curved-tube.stl", bent_pipe(2e-3, 16e-3, PI, 48)),
+        mm("elastic-stenosis/stenosis.stl", wide_stenosis()),
         mm("elastic-tube/tube.stl", pipe(3e-3, 36e-3, DVec3::Z, 64)),
         mm("fda-nozzle/nozzle.stl", nozzle()),
         mm("pipe/pipe.stl", pipe(3.175e-3, 31.75e-3, DVec3::Z, 96)),
@@ -36,6 +37,11 @@ pub fn surfaces() -> Vec<CaseSurface> {
 /// A tube of 4 mm with a stenosis of half its diameter, three quarters of its area, two diameters long.
 fn stenosis() -> Surface {
     axial(&cosine_change(2e-3, [-10e-3, 26e-3], 0.0, 8e-3, -1e-3, 40), 64)
+}
+
+/// The same of a tube of 6 mm, with more of it behind.
+fn wide_stenosis() -> Surface {
+    axial(&cosine_change(3e-3, [-15e-3, 45e-3], 0.0, 12e-3, -1.5e-3, 40), 64)
 }
 
 /// An aorta of 20 mm with a spindle of 50 mm, 80 mm long.
