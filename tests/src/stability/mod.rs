@@ -38,7 +38,8 @@ pub const CASES: &[Hard] = &[
         breaks: "Particles drawn in at the outlet are fast, few, or not there; the pressure runs away.",
         held: Held::Here(
             "Pipe of 20 mm, two diameters long, D/8, water-thin blood; a plug from +1 to -0.3 m/s and back in 0.4 s, one and a half \
-             periods, pressure outlet: Reynolds number 6100.",
+             periods, pressure outlet: Reynolds number 6100. A plug moves layer by layer, sixteen of them, and a buffer that blood comes in through holds half \
+             a layer less than one that it leaves by: that many particles the number changes by with no blood lost.",
             flows::backflow,
         ),
     },
