@@ -9,9 +9,13 @@ use vaso_driver::Case;
 use vaso_driver::run::Talk;
 use vaso_driver::study::{StudyRequest, study};
 use vaso_tests::accuracy::{CASES, Studied, page};
-use vaso_tests::root;
+use vaso_tests::{among_workers, root};
 
 fn main() -> ExitCode {
+    among_workers(make)
+}
+
+fn make() -> ExitCode {
     let mut asked: Vec<String> = std::env::args().skip(1).collect();
     if asked == ["all"] {
         asked = CASES.iter().map(|c| c.name.to_owned()).collect();

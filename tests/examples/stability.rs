@@ -3,10 +3,14 @@
 
 use std::process::ExitCode;
 
-use vaso_tests::root;
 use vaso_tests::stability::{CASES, Held, hard, page};
+use vaso_tests::{among_workers, root};
 
 fn main() -> ExitCode {
+    among_workers(make)
+}
+
+fn make() -> ExitCode {
     let mut asked: Vec<String> = std::env::args().skip(1).collect();
     if asked == ["all"] {
         asked = CASES.iter().map(|c| c.id.to_owned()).collect();

@@ -4,10 +4,14 @@
 
 use std::process::ExitCode;
 
-use vaso_tests::root;
 use vaso_tests::validation::{CASES, case, page};
+use vaso_tests::{among_workers, root};
 
 fn main() -> ExitCode {
+    among_workers(make)
+}
+
+fn make() -> ExitCode {
     let mut asked: Vec<String> = std::env::args().skip(1).collect();
     let quick = asked.iter().any(|a| a == "--quick");
     asked.retain(|a| a != "--quick");

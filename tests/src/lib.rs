@@ -14,6 +14,18 @@ use std::path::PathBuf;
 use vaso_driver::{Case, Flow, Plan, world};
 use vaso_fluid::Real;
 
+/// Does `work` on a worker thread, as the program does: from outside every parallel loop would wake a worker and put the caller to sleep,
+/// and the times of small flows would be too long.
+///
+/// # Panics
+/// If there are workers already.
+pub fn among_workers<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    // As much stack as the main thread of a program has.
+    let workers = rayon::ThreadPoolBuilder::new().stack_size(8 << 20).build_global();
+    workers.expect("no workers have been started");
+    rayon::scope(|_| work())
+}
+
 /// The workspace root.
 pub fn root() -> PathBuf {
     let tests = PathBuf::from(env!("CARGO_MANIFEST_DIR"));

@@ -15,6 +15,7 @@ pub mod outlets;
 pub mod page;
 pub mod patients;
 pub mod poiseuille;
+pub mod published_carotid;
 pub mod start_up;
 pub mod thinning;
 pub mod two_outlets;
@@ -175,6 +176,7 @@ pub const CASES: &[Case] = &[
     elastic_patients::CAROTID,
     elastic_patients::CAROTID_SOLID,
     elastic_patients::AORTA,
+    published_carotid::CASE,
 ];
 
 /// The case of a name.
