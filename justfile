@@ -60,6 +60,10 @@ ladder:
 effects:
     cargo bench -p vaso-benches --bench effects -- --write
 
+# The page of what runs were said to take and take, measured anew; five minutes on two quiet cores.
+prediction:
+    cargo bench -p vaso-benches --bench prediction -- --write
+
 # The page of the validation with the cases named run anew (`all` for all, about an hour on two cores); wants VASO_DATA.
 validation *cases:
     cargo run --release -p vaso-tests --example validation -- {{cases}}

@@ -5,10 +5,8 @@
 use std::fmt::Write;
 use vaso_benches::processor;
 use vaso_benches::speed::root;
-use vaso_coupling::ShellWall;
-use vaso_driver::deforming::Deforming;
-use vaso_driver::{Case, Flow, Plan, world};
-use vaso_solid::Solid;
+use vaso_driver::kind::{AnyFlow, Standing, any_flow};
+use vaso_driver::{Case, Plan, world};
 
 /// Advective steps before the clock runs, and of a turn.
 const WARM: usize = 3;
@@ -76,30 +74,19 @@ const SCENES: &[Scene] = &[
     },
 ];
 
-/// A flow that can be taken on.
-trait Goes {
-    /// Takes one turn; returns processor time \[s\] a particle and acoustic step.
-    fn go(&mut self) -> f64;
-    /// Particles of the blood, bytes of all bodies, acoustic steps so far, time \[s\].
-    fn state(&mut self) -> (usize, usize, u64, f64);
-}
-
-impl<R: vaso_fluid::Real, W: Deforming> Goes for Flow<R, W> {
-    fn go(&mut self) -> f64 {
-        let (start, before) = (processor(), self.particle_substeps);
+/// Takes one turn; returns processor time \[s\] a particle and acoustic step.
+fn turn(flow: &mut dyn AnyFlow) -> f64 {
+    let (start, before) = (processor(), flow.standing().particle_substeps);
+    // On the worker, as the program runs: from outside every parallel loop would be handed over.
+    rayon::scope(|_| {
         for _ in 0..STEPS {
-            self.step(f64::INFINITY).unwrap_or_else(|e| panic!("{e}"));
+            flow.step(f64::INFINITY).unwrap_or_else(|e| panic!("{e}"));
         }
-        (processor() - start) / (self.particle_substeps - before) as f64
-    }
-
-    fn state(&mut self) -> (usize, usize, u64, f64) {
-        let wall = self.wall.as_mut().map_or(0, |w| w.wall.bytes() + w.bytes());
-        (self.fluid.state.len(), self.fluid.bytes() + wall, self.acoustic_steps, self.time)
-    }
+    });
+    (processor() - start) / (flow.standing().particle_substeps - before) as f64
 }
 
-fn flow(scene: &Scene) -> Box<dyn Goes> {
+fn flow(scene: &Scene) -> Box<dyn AnyFlow> {
     let named = |key: &str| scene.set.iter().find(|(k, _)| *k == key).map(|(_, value)| *value);
     let deforms = matches!(named("wall.model"), Some("shell" | "solid"));
     let tissue = if deforms { &TISSUE[..] } else { &[] };
@@ -109,19 +96,7 @@ fn flow(scene: &Scene) -> Box<dyn Goes> {
     case.cache = Some(root().join("target/ladder"));
     let plan = Plan::new(&case).unwrap_or_else(|e| panic!("{e}"));
     let bodies = world::Bodies::make(&case, |_, _, _| {}).unwrap_or_else(|e| panic!("{e}"));
-    fn built<R: vaso_fluid::Real, W: Deforming + 'static>(
-        case: &Case,
-        plan: &Plan,
-        bodies: world::Bodies,
-    ) -> Box<dyn Goes> {
-        let flow: Flow<R, W> = world::build_flow_in(case, plan, bodies).unwrap_or_else(|e| panic!("{e}"));
-        Box::new(flow)
-    }
-    match (named("wall.model"), named("numerics.precision")) {
-        (Some("shell"), _) => built::<f32, ShellWall<f32>>(&case, &plan, bodies),
-        (_, Some("double")) => built::<f64, Solid<f64>>(&case, &plan, bodies),
-        _ => built::<f32, Solid<f32>>(&case, &plan, bodies),
-    }
+    any_flow(&case, &plan, bodies).unwrap_or_else(|e| panic!("{e}"))
 }
 
 const HEAD: &str = "\
@@ -132,7 +107,8 @@ one effect on or off, a few advective steps of each by turns on one thread; of e
 the machine only adds. Differences of a few per cent are within its noise. What a run itself spent on each effect is in its
 `summary.json` and report. Memory is that of the bodies over the particles of the blood.
 
-An effect that is off has no stage and no columns. Two exceptions: without the correction of the gradients their moments are
+An effect that is off has no stage and no columns, and a step allocates nothing whatever is on (`crates/driver/tests/allocations.rs`). A flow in
+a rigid vessel is of a type for which no wall that deforms can be made: nothing of solids and shells is compiled into it. Two exceptions: without the correction of the gradients their moments are
 still summed, as the fluid finds by them where it ends; the blend of the density reads sums that are needed anyway.
 
 Walls that deform want steps as short as their waves are fast, which is most of what they cost: the last column has both.
@@ -144,12 +120,12 @@ Walls that deform want steps as short as their waves are fast, which is most of 
 fn main() {
     let asked = |flag: &str| std::env::args().any(|a| a == flag);
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("nothing has started threads yet");
-    let mut flows: Vec<Box<dyn Goes>> = SCENES.iter().map(flow).collect();
+    let mut flows: Vec<Box<dyn AnyFlow>> = SCENES.iter().map(flow).collect();
     let mut fastest = vec![f64::INFINITY; flows.len()];
-    for turn in 0..if asked("--test") { 1 } else { WARM + TURNS } {
+    for round in 0..if asked("--test") { 1 } else { WARM + TURNS } {
         for (flow, fastest) in flows.iter_mut().zip(&mut fastest) {
-            let seconds = flow.go();
-            if turn >= WARM || asked("--test") {
+            let seconds = turn(&mut **flow);
+            if round >= WARM || asked("--test") {
                 *fastest = fastest.min(seconds);
             }
         }
@@ -157,8 +133,8 @@ fn main() {
     let mut page = HEAD.to_owned();
     let mut first = None;
     for ((scene, flow), seconds) in SCENES.iter().zip(&mut flows).zip(&fastest) {
-        let (n, bytes, steps, time) = flow.state();
-        let steps = steps as f64 / (1e3 * time);
+        let Standing { particles, acoustic_steps, time, .. } = flow.standing();
+        let steps = acoustic_steps as f64 / (1e3 * time);
         let first = *first.get_or_insert(seconds * steps);
         let _ = writeln!(
             page,
@@ -167,7 +143,7 @@ fn main() {
             scene.change,
             1e9 * seconds,
             seconds / fastest[0],
-            bytes as f64 / n as f64,
+            flow.bytes() as f64 / particles as f64,
             steps,
             seconds * steps / first
         );

@@ -8,12 +8,11 @@ use std::hint::black_box;
 use std::time::Instant;
 use vaso_benches::speed::{Ladder, Loop, Machine, Rung, root};
 use vaso_benches::{Cube, processor};
-use vaso_coupling::ShellWall;
+use vaso_coupling::{NoWall, ShellWall};
 use vaso_driver::deforming::Deforming;
 use vaso_driver::{Case, Flow, Plan, Stage, world};
 use vaso_fluid::law::{density, pressure};
 use vaso_kernels::{CHUNK, Gather, Isa, Lanes, Own, Pair, PairLaw, PairStore, Real, Store, sweep};
-use vaso_solid::Solid;
 
 /// Particles along an edge of the box.
 const EDGE: usize = 58;
@@ -258,7 +257,7 @@ fn say(ladder_reference: f64, r: &Rung) {
 
 fn smoke(cube: &Cube) {
     let reference = plain_loops(cube);
-    let found = rung::<f32, Solid<f32>>("rigid", 0.6, false);
+    let found = rung::<f32, NoWall>("rigid", 0.6, false);
     say(reference, &found);
     let kept = Ladder::kept();
     let before = kept.rung("rigid", "mixed", 0.6).expect("it is the first rung");
@@ -290,10 +289,10 @@ fn main() {
     println!("{machine:?}\nreference {reference_ns:.0} ns\n{loops:?}");
     let mut ladder = Ladder { machine, reference_ns, loops, rungs: Vec::new() };
     for spacing in [0.6, 0.4, 0.3, 0.2] {
-        ladder.rungs.push(rung::<f32, Solid<f32>>("rigid", spacing, true));
+        ladder.rungs.push(rung::<f32, NoWall>("rigid", spacing, true));
         say(reference_ns, &ladder.rungs[ladder.rungs.len() - 1]);
     }
-    ladder.rungs.push(rung::<f64, Solid<f64>>("rigid", 0.3, true));
+    ladder.rungs.push(rung::<f64, NoWall>("rigid", 0.3, true));
     say(reference_ns, &ladder.rungs[ladder.rungs.len() - 1]);
     for spacing in [0.6, 0.4, 0.3] {
         ladder.rungs.push(rung::<f32, ShellWall<f32>>("shell", spacing, true));
