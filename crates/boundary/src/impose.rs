@@ -63,7 +63,9 @@ impl Openings {
             }
             if let Some(velocity) = velocity {
                 fluid.set_velocity(i, velocity);
-                top = top.max(velocity.length());
+                let speed = velocity.length();
+                // A speed that is no number stays, so that a broken run shows.
+                top = if speed > top || speed.is_nan() { speed } else { top };
             }
             // The fringe counts: flow that comes in keeps the particles of the buffer half a spacing further in.
             if owned {

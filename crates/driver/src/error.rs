@@ -1,10 +1,14 @@
 //! What ends the program early, and the exit code that tells scripts why.
 
 use crate::case::Case;
+use crate::diverged::Diverged;
 use crate::print::length;
 use std::path::{Path, PathBuf};
 use vaso_generation::GenerationError;
 use vaso_scene::{Problem, Scene};
+
+/// File of the state that a run broke down in, in the output folder.
+pub const POST_MORTEM: &str = "failure.vtkhdf";
 
 /// Everything that can stop a command.
 #[derive(Debug, thiserror::Error)]
@@ -37,8 +41,22 @@ pub enum DriverError {
     #[error(transparent)]
     Metrics(#[from] vaso_metrics::MetricsError),
     /// The run broke down.
-    #[error(transparent)]
-    Diverged(#[from] crate::flow::Diverged),
+    #[error(
+        "{diverged}\n  last good snapshot: {}\n  the state it broke down in: {}\n  to change: {}",
+        last.map_or("none".to_owned(), |t| format!("{} at {t:.6} s", out.join("fluid.vtkhdf").display())),
+        if *post_mortem { out.join(POST_MORTEM).display().to_string() } else { "could not be written".to_owned() },
+        diverged.advice()
+    )]
+    Diverged {
+        /// Why, and where in the run.
+        diverged: Box<Diverged>,
+        /// The output folder.
+        out: PathBuf,
+        /// Time of the last good snapshot \[s\], if there is one.
+        last: Option<f64>,
+        /// Whether the state it broke down in could be written, as [`POST_MORTEM`].
+        post_mortem: bool,
+    },
     /// The user stopped the run.
     #[error(
         "interrupted at {time:.6e} s; results up to there and a checkpoint are in {0}: go on with `vaso resume {0}`",
@@ -88,7 +106,7 @@ impl DriverError {
                 | IoError::Foreign { .. }
                 | IoError::Exists { .. },
             ) => 2,
-            Self::Io(_) | Self::Report(_) | Self::Metrics(_) | Self::Diverged(_) => 1,
+            Self::Io(_) | Self::Report(_) | Self::Metrics(_) | Self::Diverged { .. } => 1,
             Self::Interrupted { .. } => 130,
         }
     }

@@ -1,69 +1,12 @@
 //! The loop nest of a flow: advective step around acoustic steps, and those of a wall that moves within them.
 
+use crate::diverged::{Breakdown, Diverged};
 use crate::ledger::{Ledger, Stage};
-use glam::DVec3;
 use vaso_boundary::{Openings, Reading};
 use vaso_coupling::{Coupling, CouplingError, MovingWall};
 use vaso_fluid::{Fluid, Real};
 use vaso_particles::{Memory, visit};
 use vaso_solid::Solid;
-
-/// A run that cannot go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Diverged {
-    /// A value is no longer a number.
-    #[error(
-        "{column} [{unit}] of particle {id} at ({:.6}, {:.6}, {:.6}) m is not finite after step {step} at {time:.6e} s",
-        position.x, position.y, position.z
-    )]
-    NonFinite {
-        /// Column of the value.
-        column: &'static str,
-        /// Its unit.
-        unit: &'static str,
-        /// Identity of the particle.
-        id: u64,
-        /// Its position \[m\].
-        position: DVec3,
-        /// Advective step.
-        step: u64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// The flow is too fast for the sound speed.
-    #[error(
-        "particle {id} at ({:.6}, {:.6}, {:.6}) m moves at {speed:.3} m/s, more than a fifth of the sound speed of \
-         {sound_speed:.3} m/s, at {time:.6e} s; raise `numerics.sound_speed` or set `numerics.allow_mach = true`",
-        position.x, position.y, position.z
-    )]
-    TooFast {
-        /// Identity of the particle.
-        id: u64,
-        /// Its position \[m\].
-        position: DVec3,
-        /// Its speed \[m/s\].
-        speed: f64,
-        /// Sound speed \[m/s\].
-        sound_speed: f64,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// The wall has broken down.
-    #[error("the wall at {time:.6e} s: {source}")]
-    Wall {
-        /// What it says.
-        source: CouplingError,
-        /// Simulated time \[s\].
-        time: f64,
-    },
-    /// All fluid is gone.
-    #[error("no fluid particle is left at {time:.6e} s")]
-    Empty {
-        /// Simulated time \[s\].
-        time: f64,
-    },
-}
 
 /// What the guards saw so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -116,6 +59,19 @@ const MAX_MACH: f64 = 0.2;
 /// next step.
 fn evenly(left: f64, most: f64) -> f64 {
     left / (left / most).ceil().max(1.0)
+}
+
+/// Stage that a velocity which is not finite after a kick comes from: that which wrote the first of what it is made of. The first kick of
+/// a step reads what the stages before have found, any that `is_later` what the last acoustic step has.
+fn broken_in<R: Real>(fluid: &Fluid<R>, is_later: bool) -> Stage {
+    let n = fluid.state.len();
+    if !fluid.top_density_error().is_finite() {
+        if is_later { Stage::Continuity } else { Stage::Summation }
+    } else if (0..n).any(|i| !fluid.viscous_acceleration(i).is_finite()) {
+        if fluid.numbers().rheology.is_some() { Stage::ShearThinning } else { Stage::Viscosity }
+    } else {
+        Stage::Momentum
+    }
 }
 
 impl<R: Real, W: MovingWall> Flow<R, W> {
@@ -189,11 +145,12 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
     /// the step in which it showed.
     pub fn step(&mut self, until: f64) -> Result<(), Diverged> {
         let Self { fluid, openings, ledger, wall, .. } = self;
-        if self.advective_steps > 0 {
+        self.advective_steps += 1;
+        if self.advective_steps > 1 {
             ledger.time(Stage::Exchange, || openings.exchange(&mut fluid.state, self.time));
         }
         if fluid.state.is_empty() {
-            return Err(Diverged::Empty { time: self.time });
+            return Err(self.diverged(Breakdown::Empty, Stage::Exchange, self.time));
         }
         ledger.time(Stage::Exchange, || {
             fluid.sort();
@@ -224,12 +181,19 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
             ledger.time(Stage::WallPressure, || fluid.wall_pressure());
             let inner = ledger.time(Stage::Momentum, || fluid.kick(dt));
             let end = self.time + elapsed + dt;
+            if !inner.is_finite() {
+                let stage = broken_in(fluid, elapsed > 0.0);
+                return Err(self.non_finite(stage, end));
+            }
             let near = ledger.time(Stage::Openings, || openings.apply(fluid, end, dt));
+            if !near.is_finite() {
+                return Err(self.non_finite(Stage::Openings, end));
+            }
             if let Some(wall) = wall {
                 ledger.time(Stage::Coupling, || wall.take_pressure(fluid));
-                ledger
-                    .time(Stage::Wall, || wall.advance(dt))
-                    .map_err(|source| Diverged::Wall { source, time: end })?;
+                if let Err(error) = ledger.time(Stage::Wall, || wall.advance(dt)) {
+                    return Err(self.diverged(Breakdown::Wall(error), Stage::Wall, end));
+                }
                 ledger.time(Stage::Coupling, || wall.show_velocity(fluid, dt));
             }
             elapsed += dt;
@@ -249,7 +213,6 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
             dt = next;
         }
         self.time = if until - (self.time + elapsed) < 1e-9 * duration { until } else { self.time + elapsed };
-        self.advective_steps += 1;
         fluid.note_part(elapsed / full);
         if fluid.numbers().transport_velocity {
             ledger.time(Stage::Transport, || fluid.transport(openings.zones()));
@@ -257,6 +220,22 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         let readings = &mut self.readings;
         ledger.time(Stage::Guard, || openings.measure_into(&fluid.state, self.time, readings));
         self.guard()
+    }
+
+    /// That the step under way cannot be ended.
+    fn diverged(&self, breakdown: Breakdown, stage: Stage, time: f64) -> Diverged {
+        Diverged { breakdown, stage, step: self.advective_steps, time }
+    }
+
+    /// The same, by the first value that is not finite.
+    fn non_finite(&mut self, stage: Stage, time: f64) -> Diverged {
+        self.watch.non_finite += 1;
+        let state = &mut self.fluid.state;
+        let bad = visit::first_non_finite(state);
+        let (column, unit, i) =
+            bad.map_or(("velocity", "m/s", 0), |bad| (bad.column, bad.unit, bad.particle));
+        let breakdown = Breakdown::NonFinite { column, unit, id: state.id[i], position: state.position[i] };
+        self.diverged(breakdown, stage, time)
     }
 
     /// Puts back what touches the wall, drops what has left through it, and checks the state.
@@ -267,17 +246,8 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         let speed = fluid.top_speed();
         let density = fluid.top_density_error();
         if !(speed.is_finite() && density.is_finite()) {
-            self.watch.non_finite += 1;
-            if let Some(bad) = visit::first_non_finite(&mut fluid.state) {
-                return Err(Diverged::NonFinite {
-                    column: bad.column,
-                    unit: bad.unit,
-                    id: fluid.state.id[bad.particle],
-                    position: fluid.state.position[bad.particle],
-                    step: self.advective_steps,
-                    time: self.time,
-                });
-            }
+            let stage = if density.is_finite() { Stage::Transport } else { Stage::Continuity };
+            return Err(self.non_finite(stage, self.time));
         }
         self.watch.max_mach = self.watch.max_mach.max(speed / sound_speed);
         self.watch.max_density_error = self.watch.max_density_error.max(density);
@@ -294,13 +264,9 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
                 state.velocity[a].length_squared().total_cmp(&state.velocity[b].length_squared())
             });
             if let Some(i) = fastest {
-                return Err(Diverged::TooFast {
-                    id: state.id[i],
-                    position: state.position[i],
-                    speed,
-                    sound_speed,
-                    time: self.time,
-                });
+                let (id, position) = (state.id[i], state.position[i]);
+                let breakdown = Breakdown::TooFast { id, position, speed, sound_speed };
+                return Err(self.diverged(breakdown, Stage::Guard, self.time));
             }
         }
         Ok(())

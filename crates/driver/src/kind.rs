@@ -2,8 +2,9 @@
 
 use crate::Case;
 use crate::deforming::Deforming;
+use crate::diverged::Diverged;
 use crate::error::DriverError;
-use crate::flow::{Diverged, Flow};
+use crate::flow::Flow;
 use crate::plan::Plan;
 use crate::world::{Bodies, build_flow_in};
 use vaso_coupling::{NoWall, ShellWall};

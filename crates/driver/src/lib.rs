@@ -8,6 +8,7 @@ pub mod checkpoint;
 pub mod compare;
 mod conditions;
 pub mod deforming;
+pub mod diverged;
 pub mod error;
 pub mod estimate;
 pub mod extrusion;
@@ -38,7 +39,8 @@ pub mod tune;
 pub mod world;
 
 pub use case::Case;
+pub use diverged::{Breakdown, Diverged};
 pub use error::DriverError;
-pub use flow::{Diverged, Flow, Watch};
+pub use flow::{Flow, Watch};
 pub use ledger::{Ledger, Stage};
 pub use plan::Plan;

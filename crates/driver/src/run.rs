@@ -3,8 +3,9 @@
 use crate::case::Case;
 use crate::checkpoint::{self, Checkpoint, Due, Ending, Origin, Surroundings};
 use crate::deforming::Deforming;
-use crate::error::DriverError;
-use crate::flow::{Diverged, Flow};
+use crate::diverged::Diverged;
+use crate::error::{DriverError, POST_MORTEM};
+use crate::flow::Flow;
 use crate::kind::{OfKind, with_kind};
 use crate::ledger::Stage;
 use crate::plan::Plan;
@@ -12,7 +13,7 @@ use crate::print;
 use crate::progress::Progress;
 use crate::results::{Results, append_frame};
 use crate::world::{Bodies, build_flow_in};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use vaso_coupling::MovingWall;
@@ -260,10 +261,9 @@ fn post_mortem<R: Real, W: MovingWall, F>(
     case: &Case,
     diverged: Diverged,
 ) -> DriverError {
-    let file: PathBuf = results.folder().join("failure.vtkhdf");
-    let mut series = SeriesWriter::create(file);
-    match append_frame(&mut series, flow, &case.scene.output.fields) {
-        // A frame may hold values the format refuses; the message is what matters then.
-        Ok(()) | Err(_) => diverged.into(),
-    }
+    let out = results.folder().to_owned();
+    let mut series = SeriesWriter::create(out.join(POST_MORTEM));
+    // A frame may hold values the format refuses; the message is what matters then.
+    let post_mortem = append_frame(&mut series, flow, &case.scene.output.fields).is_ok();
+    DriverError::Diverged { diverged: Box::new(diverged), out, last: results.last_frame(), post_mortem }
 }

@@ -255,3 +255,37 @@ fn tuned_outlets_can_be_pasted() {
         .expect("starts");
     assert_eq!(steady.status.code(), Some(2));
 }
+
+/// A run that has to stop says where in it, what is left, and what to change; its files stay, and the exit code is 1.
+#[test]
+fn a_run_that_breaks_down_says_all_that_is_known() {
+    let folder = tempfile::tempdir().expect("a temporary folder can be had");
+    pipe(folder.path());
+    let out = folder.path().join("out");
+    let mut vaso = coarse(folder.path(), "run");
+    // So slow a sound that the inflow has a Mach number of a half.
+    vaso.args(["--set", "numerics.sound_speed=0.2 m/s", "--set", "opening.inlet.ramp=10 ms"]);
+    vaso.args(["--set", "output.every=1 ms", "--quiet", "--out"]).arg(&out);
+    let output = vaso.output().expect("the program can be started");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    let words = [
+        "particle",
+        " m moves at ",
+        "stage `guard` of step ",
+        " s\n",
+        "last good snapshot: ",
+        "fluid.vtkhdf at 0.0",
+        "failure.vtkhdf",
+    ];
+    for word in words.iter().chain(&["to change: raise `numerics.sound_speed`"]) {
+        assert!(text.contains(word), "\"{word}\" is not in {text}");
+    }
+    for file in ["failure.vtkhdf", "fluid.vtkhdf", "checkpoint.h5", "report.html"] {
+        assert!(out.join(file).is_file(), "{file} is not there");
+    }
+    let summary = std::fs::read(out.join("summary.json")).expect("a run leaves a summary");
+    let summary: Value = serde_json::from_slice(&summary).expect("it is JSON");
+    assert_eq!(summary["status"], "failed");
+    assert!(summary["message"].as_str().is_some_and(|m| m.contains("to change: ")), "{summary}");
+}

@@ -3,7 +3,7 @@
 use crate::pipe::Pipe;
 use glam::DVec3;
 use vaso_coupling::ShellWall;
-use vaso_driver::{Flow, world};
+use vaso_driver::{Breakdown, Flow, Stage, world};
 
 /// A short tube that is filled at a pressure, with a shell for a wall.
 fn tube() -> Pipe {
@@ -87,4 +87,35 @@ fn noise_of_the_density_dies_out_where_particles_stand_unevenly() {
     assert!(found[0] > 1e-4, "there is noise: {}", found[0]);
     // It is fed by what is mixed in of the sums; with all of the diffusion it grew tenfold.
     assert!(found[2] < 2.0 * found[0], "{found:?}");
+}
+
+/// A run that has to stop says in which stage a value broke, and where: values are broken by hand, one before each step.
+#[test]
+fn what_breaks_is_told_with_its_stage_and_place() {
+    let pipe = Pipe {
+        diameter: 6e-3,
+        length: 18e-3,
+        inlet: "condition = \"velocity\"\nvalue = \"0.1 m/s\"".into(),
+        outlet: "condition = \"pressure\"\nvalue = \"0 Pa\"".into(),
+        ..Pipe::published(8.0)
+    };
+    let particle = 100;
+    let broken = |spoil: &dyn Fn(&mut Flow<f32>)| {
+        let (mut flow, _, _) = pipe.flow::<f32>();
+        flow.step(1.0).unwrap_or_else(|e| panic!("{e}"));
+        spoil(&mut flow);
+        let diverged = flow.step(1.0).expect_err("it cannot go on");
+        println!("{diverged}; {}", diverged.advice());
+        assert_eq!((diverged.step, flow.watch.non_finite), (2, 1));
+        assert!(diverged.time > 0.0 && !diverged.advice().is_empty());
+        let Breakdown::NonFinite { column, position, .. } = diverged.breakdown else { panic!("{diverged}") };
+        (diverged.stage, column, position.is_finite())
+    };
+    let density = broken(&|flow| flow.fluid.state.density_change[particle] = f64::NAN);
+    assert_eq!(density, (Stage::Summation, "velocity", true));
+    let rate = broken(&|flow| flow.fluid.state.density_rate[particle] = f64::INFINITY);
+    assert_eq!(rate, (Stage::Summation, "velocity", true));
+    // A velocity of before has moved the particle nowhere by the time that it is found.
+    let velocity = broken(&|flow| flow.fluid.state.velocity[particle].x = f64::NAN);
+    assert_eq!(velocity, (Stage::Viscosity, "position", false));
 }

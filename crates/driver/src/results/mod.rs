@@ -234,6 +234,11 @@ impl<F> Results<F> {
         self.probes.as_ref().map_or(Ok(()), Table::sync)
     }
 
+    /// Time of the last frame of the blood \[s\], if there is one.
+    pub(crate) fn last_frame(&self) -> Option<f64> {
+        self.fluid.last_time()
+    }
+
     /// The output folder.
     pub fn folder(&self) -> &std::path::Path {
         &self.folder
