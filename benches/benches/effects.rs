@@ -107,7 +107,7 @@ one effect on or off, a few advective steps of each by turns on one thread; of e
 the machine only adds. Differences of a few per cent are within its noise. What a run itself spent on each effect is in its
 `summary.json` and report. Memory is that of the bodies over the particles of the blood.
 
-An effect that is off has no stage and no columns, and a step allocates nothing whatever is on (`crates/driver/tests/allocations.rs`). A flow in
+An effect that is off has no stage and no columns, and none of these scenes allocates in a step but for lists of neighbours that grow (`crates/driver/tests/allocations.rs`). A flow in
 a rigid vessel is of a type for which no wall that deforms can be made: nothing of solids and shells is compiled into it. Two exceptions: without the correction of the gradients their moments are
 still summed, as the fluid finds by them where it ends; the blend of the density reads sums that are needed anyway.
 

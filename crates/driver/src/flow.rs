@@ -5,7 +5,7 @@ use crate::ledger::{Ledger, Stage};
 use vaso_boundary::{Openings, Reading};
 use vaso_coupling::{Coupling, CouplingError, MovingWall};
 use vaso_fluid::{Fluid, Real};
-use vaso_particles::{Memory, visit};
+use vaso_particles::{Memory, NonFinite, visit};
 use vaso_solid::Solid;
 
 /// What the guards saw so far.
@@ -232,10 +232,24 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         self.watch.non_finite += 1;
         let state = &mut self.fluid.state;
         let bad = visit::first_non_finite(state);
-        let (column, unit, i) =
-            bad.map_or(("velocity", "m/s", 0), |bad| (bad.column, bad.unit, bad.particle));
-        let breakdown = Breakdown::NonFinite { column, unit, id: state.id[i], position: state.position[i] };
+        let breakdown = match bad {
+            Some(NonFinite { column, unit, particle: i }) => {
+                Breakdown::NonFinite { column, unit, id: state.id[i], position: state.position[i] }
+            }
+            // Only the square of a speed is beyond all numbers.
+            None => self.too_fast(),
+        };
         self.diverged(breakdown, stage, time)
+    }
+
+    /// That the fastest particle is too fast; that there is none where all have left.
+    fn too_fast(&self) -> Breakdown {
+        let state = &self.fluid.state;
+        let speed = |i: &usize| state.velocity[*i].length();
+        let fastest = (0..state.len()).max_by(|a, b| speed(a).total_cmp(&speed(b)));
+        let Some(i) = fastest else { return Breakdown::Empty };
+        let sound_speed = self.fluid.numbers().sound_speed;
+        Breakdown::TooFast { id: state.id[i], position: state.position[i], speed: speed(&i), sound_speed }
     }
 
     /// Puts back what touches the wall, drops what has left through it, and checks the state.
@@ -259,15 +273,7 @@ impl<R: Real, W: MovingWall> Flow<R, W> {
         }
         self.ledger.add(Stage::Guard, start.elapsed());
         if speed > MAX_MACH * sound_speed && !self.allow_mach {
-            let state = &self.fluid.state;
-            let fastest = (0..state.len()).max_by(|&a, &b| {
-                state.velocity[a].length_squared().total_cmp(&state.velocity[b].length_squared())
-            });
-            if let Some(i) = fastest {
-                let (id, position) = (state.id[i], state.position[i]);
-                let breakdown = Breakdown::TooFast { id, position, speed, sound_speed };
-                return Err(self.diverged(breakdown, Stage::Guard, self.time));
-            }
+            return Err(self.diverged(self.too_fast(), Stage::Guard, self.time));
         }
         Ok(())
     }

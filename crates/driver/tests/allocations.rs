@@ -1,4 +1,5 @@
-//! A step works in memory that is there: none of its stages allocates, whatever the effects of the scene.
+//! A step works in memory that is there: none of its stages allocates, whatever the effects of the scene, but for hypoelastic solids,
+//! which find their neighbours anew in each sub-step.
 
 use dhat::{HeapStats, Profiler};
 use std::path::Path;
